@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from . import designs, env, maps, plot, widgets
+    from ._source import source
     from ._training import Training
     from .designs import Feature, Transition
     from .evaluation import Evaluation, evaluate
@@ -52,6 +53,7 @@ _HOME = {
         "sarsa_rule",
     ],
     "_training": ["Training"],
+    "_source": ["source"],
     "montecarlo": ["monte_carlo"],
     "rollouts": ["rollout", "returns", "Episode"],
     "evaluation": ["evaluate", "Evaluation"],

@@ -163,7 +163,8 @@ def greedy(Q: ArrayLike) -> NDArray[np.int64]:
     Q = _check.array("Q", Q, "real", (None, None), "a table [Z, A]")
     if Q.shape[1] == 0:
         _check.fail("Q", "a table with at least one action", f"shape {Q.shape}")
-    return (Q.max(axis=1, keepdims=True) - TIE <= Q).argmax(axis=1)
+    best = Q.max(axis=1, keepdims=True)
+    return (best - Q <= TIE).argmax(axis=1)
 
 
 def epsilon_greedy(Q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
