@@ -19,6 +19,9 @@ from ._compile import kernel
 from .mdp import MDP, TIE, action_values, greedy, under_policy
 
 EVALUATIONS = 10  # policy sweeps of `solve` between two greedy ones, at most
+EXACT = 1e-10  # relative error of policy evaluation
+SLOW, SMALL = 0.999, 4000  # beyond this gamma, up to so many states, it solves the linear system instead of sweeping
+MOST_SWEEPS = 1_000_000
 ENOUGH = 0.1  # ... and they stop early once they change values by less than this share of the greedy sweep's change
 
 
@@ -140,8 +143,8 @@ def policy_iteration(mdp: MDP, *, pi: ArrayLike | None = None) -> Solution:
 def evaluate_policy(mdp: MDP, pi: ArrayLike) -> NDArray[np.float64]:
     """Find the values of a policy: the solution of eq. :eq:`eq-linear-system`, v = r_pi + gamma P_pi v.
 
-    The expectation backup is repeated until its contraction bounds the error by 1e-10 times the largest value, or until
-    rounding stops it.
+    The expectation backup is repeated until its contraction bounds the error by 1e-10 times the largest value.  Where
+    gamma is so near 1 that this would take long, a system of up to 4000 states is solved directly.
 
     Parameters
     ----------
@@ -169,17 +172,16 @@ def evaluate_policy(mdp: MDP, pi: ArrayLike) -> NDArray[np.float64]:
     next_state, prob, r = under_policy(mdp, pi)
     if mdp.gamma == 1:
         _check_that_it_ends(mdp, next_state, prob, r)
-    bound = mdp.gamma / (1 - mdp.gamma) if mdp.gamma < 1 else 1e3
-    V, stalled, best = np.zeros(mdp.S), 0, np.inf
-    while stalled < 100:
+    if mdp.gamma > SLOW and mdp.S <= SMALL:
+        return _solve_directly(mdp, next_state, prob, r)
+    V = np.zeros(mdp.S)
+    for _ in range(MOST_SWEEPS):
         V_new = r + mdp.gamma * np.einsum("sn,sn->s", prob, V[next_state])
         change, size = float(np.abs(V_new - V).max()), float(np.abs(V_new).max())
         V = V_new
-        if change * bound <= 1e-10 * size or change == 0:
-            break
-        stalled = 0 if change < best else stalled + (change <= 1e-12 * size)  # only rounding still moves the values
-        best = min(best, change)
-    return V
+        if change * mdp.gamma <= (1 - min(mdp.gamma, SLOW)) * EXACT * size:
+            return V
+    return _check.fail("pi", "a policy whose episodes end sooner", f"values that move after {MOST_SWEEPS:,} sweeps")
 
 
 def solve(mdp: MDP, *, tol: float = 1e-8, max_sweeps: int | None = None) -> Solution:
@@ -307,6 +309,19 @@ def _solution(mdp: MDP, V: NDArray, Q: NDArray, residuals: list[float], tol: flo
         advice = "Some policy collects reward without end, or none ends. Take gamma < 1, or mend rewards or ends."
         _check.fail("mdp", "a problem whose optimal values are finite at gamma = 1", got, advice)
     return Solution(V, Q, greedy(Q), np.array(residuals), converged)
+
+
+def _solve_directly(mdp: MDP, next_state: NDArray, prob: NDArray, r: NDArray) -> NDArray[np.float64]:
+    """Solve (I - gamma P) v = r, leaving out states from which no reward ever comes: at gamma = 1 they have no row."""
+    P = np.zeros((mdp.S, mdp.S))
+    np.add.at(P, (np.arange(mdp.S)[:, None], next_state), prob)
+    paid, before = r != 0, 0
+    while paid.sum() > before:
+        before = paid.sum()
+        paid = paid | (P[:, paid] > 0).any(axis=1)
+    V = np.zeros(mdp.S)
+    V[paid] = np.linalg.solve(np.eye(paid.sum()) - mdp.gamma * P[np.ix_(paid, paid)], r[paid])
+    return V
 
 
 def _reaches_end(mdp: MDP, next_state: NDArray, prob: NDArray) -> NDArray[np.bool_]:
