@@ -28,7 +28,8 @@ if TYPE_CHECKING:
     )
     from .mdp import MDP, action_values, epsilon_greedy, greedy
     from .montecarlo import monte_carlo
-    from .planning import Solution, evaluate_policy, policy_iteration, solve, value_iteration
+    from .planning import Solution, policy_iteration, solve, value_iteration
+    from .prediction import evaluate_policy
     from .robot import Pose, Robot
     from .rollouts import Episode, returns, rollout
     from .task import Task
@@ -42,7 +43,8 @@ _HOME = {
     "designs": ["Feature", "Transition"],
     "task": ["Task"],
     "mdp": ["MDP", "action_values", "greedy", "epsilon_greedy"],
-    "planning": ["value_iteration", "policy_iteration", "evaluate_policy", "solve", "Solution"],
+    "prediction": ["evaluate_policy"],
+    "planning": ["value_iteration", "policy_iteration", "solve", "Solution"],
     "learning": [
         "q_learning",
         "sarsa",

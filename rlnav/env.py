@@ -1,6 +1,6 @@
 """The bridge to Gymnasium: our robot as an environment, and a Gymnasium toy-text table as an MDP.
 
-Importing this module registers "rlnav/GridRobot-v0".  `gymnasium.make("rlnav.env:rlnav/GridRobot-v0")` imports it first.
+Importing this module registers "rlnav/GridRobot-v0"; `gymnasium.make("rlnav.env:rlnav/GridRobot-v0")` does both.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ ID = "rlnav/GridRobot-v0"
 ARROWS = "→↗↑↖←↙↓↘"  # the headings 0, 45, ... 315 degrees
 
 
-class GridRobotEnv(gym.Env[int, int]):
+class GridRobotEnv(gym.Env[Any, Any]):
     """Let the robot of a task be driven through Gymnasium's interface; its chances are exactly those of `task.mdp()`.
 
-    The observation is the state s, or what the robot perceives of it, z = phi[s], if the task has features.  Action a is
-    the turn `task.robot.steering[a]`.  Goal and crash terminate an episode.  The environment itself truncates it after
-    `max_steps` steps, without a wrapper, so that there is one limit whether it was made here or by `gymnasium.make`.
+    The observation is the state s, or what the robot perceives of it, z = phi[s], if the task has features.  Action a
+    is the turn `task.robot.steering[a]`.  Goal and crash terminate an episode.  The environment itself truncates it
+    after `max_steps` steps, without a wrapper: one limit, whether it was made here or by `gymnasium.make`.
 
     Each reset and each step draws one number from `np_random`.  `info` holds "state" (s, whatever is observed), "pose"
     (after a crash: the pose from which the robot drove into something), "crash" and "goal".
@@ -103,7 +103,7 @@ class GridRobotEnv(gym.Env[int, int]):
         observation, info = self._perceive()
         return observation, float(r), terminated, truncated, info
 
-    def render(self) -> str | None:  # type: ignore[override]
+    def render(self) -> str | None:
         """Return the map as text, or None without a render mode."""
         if self.render_mode is None:
             return None
@@ -140,10 +140,10 @@ class Outcome(NamedTuple):
 def to_mdp(env: Any, gamma: float, *, start: ArrayLike | None = None) -> MDP:
     """Turn a toy-text table of Gymnasium, P[s][a] = [(p, s', r, terminated), ...], into an MDP.
 
-    The table marks steps that end the episode; our MDP marks states in which it is over.  A state that is entered only by
-    ending steps becomes terminal.  One that is also entered, or started from, while the episode goes on keeps its number,
-    and gets a terminal twin at the end of the table for the steps that end (Taxi has four such states).  So the values of
-    all states that are not terminal are exactly those of the environment.  The goals are the terminal states whose
+    The table marks steps that end the episode; our MDP marks states in which it is over.  A state that only ending
+    steps enter becomes terminal.  One that is also entered, or started from, while the episode goes on keeps its number
+    and gets a terminal twin at the end of the table, for the steps that end (Taxi has four such states).  So the values
+    of all states that are not terminal are exactly those of the environment.  Goals are the terminal states whose
     entering pays the largest reward that any ending step pays.
 
     Parameters
@@ -203,7 +203,7 @@ def _size(P: Any) -> tuple[int, int]:
         _check.fail("env", expected, "a table without states or actions")
     if min(actions) != max(actions):
         s = next(s for s, n in enumerate(actions) if n != actions[0])
-        _check.fail("env", f"a table with {actions[0]} actions in every state, as in state 0", f"{actions[s]} in state {s}")
+        _check.fail("env", f"a table with the same actions in every state: {actions[0]}", f"{actions[s]} in state {s}")
     return len(actions), actions[0]
 
 

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _check
 from .mdp import MDP, under_policy
-from .planning import evaluate_policy, solve
+from .planning import solve
+from .prediction import evaluate_policy
 
 
 @dataclass(frozen=True)
