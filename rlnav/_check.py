@@ -10,12 +10,18 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+LARGEST = 1e100  # sums of larger numbers overflow
+MOST_STEPS = 1_000_000  # of one episode
+
 
 def show(value: object, limit: int = 60) -> str:
     """Quote the value as an error message does: short, on one line, with its shape where it has one."""
     if isinstance(value, np.ndarray) and value.size > 6:
         return f"an array of shape {value.shape} and type {value.dtype}"
-    text = " ".join(repr(value.item() if isinstance(value, np.generic) else value).split())
+    try:
+        text = " ".join(repr(value.item() if isinstance(value, np.generic) else value).split())
+    except Exception:  # an integer too long to print, or a reader's own class
+        return f"something of type {type(value).__name__}"
     return text if len(text) <= limit else f"{text[: limit - 3]}..."
 
 
@@ -34,14 +40,21 @@ def number(name: str, value: Any, low: float = -math.inf, high: float = math.inf
         value = value.item()
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, Real):
         fail(name, expected, f"{show(value)} ({type(value).__name__})", kind=TypeError)
-    x = float(value)
+    try:
+        x = float(value)
+    except OverflowError:  # an integer beyond all floating-point numbers
+        x = math.inf
     if not math.isfinite(x) or x < low or x > high or (above and x == low):
         fail(name, expected, show(value))
+    if abs(x) > LARGEST:
+        fail(name, f"a number between -{LARGEST:g} and {LARGEST:g}", show(value), "Sums of larger ones overflow.")
     return x
 
 
 def integer(name: str, value: Any, low: int | None = None, high: int | None = None) -> int:
     """Return a whole number in [low, high]."""
+    if type(value) is int and (low is None or value >= low) and (high is None or value <= high):
+        return value  # at once: the model of a task asks this half a million times
     limits = {
         (False, False): "an integer",
         (True, False): f"an integer of at least {low}",
@@ -52,16 +65,41 @@ def integer(name: str, value: Any, low: int | None = None, high: int | None = No
         fail(name, expected, f"{show(value)} ({type(value).__name__})", kind=TypeError)
     n = int(value)
     if (low is not None and n < low) or (high is not None and n > high):
-        fail(name, expected, str(n))
+        fail(name, expected, show(n))
     return n
+
+
+def cell(name: str, value: Any) -> tuple[int, int]:
+    """Return a cell (x, y)."""
+    pair = items(name, value, "a cell (x, y)")
+    if len(pair) != 2:
+        fail(name, "a cell (x, y)", show(value), kind=TypeError)
+    return integer(name, pair[0]), integer(name, pair[1])
+
+
+def items(name: str, value: Any, expected: str) -> tuple:
+    """Return what a collection holds."""
+    try:
+        if not isinstance(value, (str, bytes)):
+            return tuple(value)
+    except TypeError:
+        pass
+    return fail(name, expected, f"{show(value)} ({type(value).__name__})", kind=TypeError)
+
+
+def plain(name: str, value: ArrayLike, meaning: str) -> NDArray:
+    """Return what NumPy makes of a number or nested sequences."""
+    try:
+        return np.asarray(value)
+    except ValueError:
+        return fail(name, meaning, "rows of different lengths", "Give every row the same length.")
+    except Exception as error:
+        return fail(name, meaning, f"{type(error).__name__}: {error}", kind=TypeError)
 
 
 def array(name: str, value: ArrayLike, kind: str, shape: tuple[int | None, ...], meaning: str) -> NDArray:
     """Return an array of `kind` ("integer", "real" or "bool") whose shape fits; None in `shape` fits any length."""
-    try:
-        x = np.asarray(value)
-    except ValueError:
-        fail(name, meaning, "rows of different lengths", "Give every row the same length.")
+    x = plain(name, value, meaning)
     kinds = {"integer": "iu", "real": "iuf", "bool": "b"}[kind]
     if x.dtype.kind not in kinds:
         whole = f"{meaning}, {'an integer' if kind == 'integer' else f'a {kind}'} array"
@@ -72,7 +110,15 @@ def array(name: str, value: ArrayLike, kind: str, shape: tuple[int | None, ...],
     if x.dtype.kind == "f" and not np.isfinite(x).all():
         where = np.argwhere(~np.isfinite(x))[0]
         fail(name, "finite everywhere", f"{x[tuple(where)]} at [{', '.join(map(str, where))}]")
+    if x.dtype.kind == "f" and x.size and max(x.max(), -x.min()) > LARGEST:
+        expected = f"between -{LARGEST:g} and {LARGEST:g} everywhere"
+        fail(name, expected, f"{x.max():g}" if x.max() > LARGEST else f"{x.min():g}", "Sums of larger ones overflow.")
     return x
+
+
+def states(name: str, value: ArrayLike) -> NDArray:
+    """Return the numbers of one state or of several."""
+    return array(name, np.atleast_1d(plain(name, value, "states")), "integer", (None,), "states")
 
 
 def generator(rng: object) -> np.random.Generator:

@@ -52,10 +52,9 @@ def source(function: Callable) -> Source:
         shown = getattr(sys.modules.get(function.__module__), f"_{function.__name__}", function)
     shown = getattr(shown, "py_func", shown)  # compiled loops keep the function that they came from
     try:
-        text = textwrap.dedent(inspect.getsource(shown))
-    except (OSError, TypeError):
-        _check.fail("function", "a function written in Python", _check.show(function))
-    return Source(_without_docstring(text))
+        return Source(_without_docstring(textwrap.dedent(inspect.getsource(shown))))
+    except (OSError, TypeError, SyntaxError):  # the last for the line of a lambda, which is not a statement of its own
+        return _check.fail("function", "a function written in Python by `def`", _check.show(function))
 
 
 def _without_docstring(text: str) -> str:

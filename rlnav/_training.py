@@ -15,6 +15,7 @@ from ._sampling import arrays
 from .mdp import MDP, greedy
 
 MOST_NUMBERS = 500_000_000  # in one table, or in all its snapshots together
+MOST_EPISODES = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +73,9 @@ def record(log, e, Q, G, t, s):
     """Write down the end of episode `e`."""
     log.returns[e], log.steps[e], log.last[e] = G, t, s
     if log.slot[e] >= 0:
-        log.tables[log.slot[e]] = Q
+        for z in range(Q.shape[0]):  # not `tables[slot] = Q`: its check of shapes takes numba seconds to compile
+            for a in range(Q.shape[1]):
+                log.tables[log.slot[e], z, a] = Q[z, a]
 
 
 def train(
@@ -90,10 +93,10 @@ def train(
     """Check the arguments that all learners share, run the loop, and give what it wrote down a name."""
     _check.instance("mdp", mdp, MDP)
     phi = check_phi(mdp, phi)
-    episodes = _check.integer("episodes", episodes, 1)
+    episodes = _check.integer("episodes", episodes, 1, MOST_EPISODES)
     alpha = _schedule("alpha", alpha, episodes, above=True)
     epsilon = _schedule("epsilon", epsilon, episodes)
-    max_steps = _check.integer("max_steps", max_steps, 1)
+    max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     Q = _initial_table(Q0, int(phi.max()) + 1, mdp.A)
     after = _snapshot_episodes(_check.integer("snapshots", snapshots, 0), episodes, Q.size)
     log = _empty_log(episodes, after, Q)
@@ -115,7 +118,8 @@ def check_phi(mdp: MDP, phi: ArrayLike | None) -> NDArray[np.int64]:
 
 def _schedule(name: str, value: float | ArrayLike, episodes: int, *, above: bool = False) -> NDArray[np.float64]:
     """One number for each episode."""
-    if np.ndim(value) == 0:
+    value = _check.plain(name, value, "one number, or one for each episode")
+    if value.ndim == 0:
         return np.full(episodes, _check.number(name, value, 0, 1, above=above))
     values = _check.array(name, value, "real", (episodes,), "one number, or one for each episode").astype(np.float64)
     bad = (values < 0) | (values > 1) | (above & (values == 0))
@@ -128,7 +132,8 @@ def _schedule(name: str, value: float | ArrayLike, episodes: int, *, above: bool
 def _initial_table(Q0: float | ArrayLike, Z: int, A: int) -> NDArray[np.float64]:
     if Z * A > MOST_NUMBERS:
         _check.fail("phi", f"the design of a table of at most {MOST_NUMBERS:,} numbers", f"{Z:,} rows of {A}")
-    if np.ndim(Q0) == 0:
+    Q0 = _check.plain("Q0", Q0, "one number, or an initial table")
+    if Q0.ndim == 0:
         return np.full((Z, A), _check.number("Q0", Q0))
     return np.array(_check.array("Q0", Q0, "real", (Z, A), "one number, or an initial table"), np.float64)
 

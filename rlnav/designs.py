@@ -11,8 +11,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 
-import numpy as np
-
 from . import _check
 from .robot import Pose, Robot
 from .world import Cell, GridWorld
@@ -97,6 +95,11 @@ class Progress:
     weight: float = 1.0
     only_closer: bool = False
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "goal", _check.cell("goal", self.goal))
+        object.__setattr__(self, "weight", _check.number("weight", self.weight))
+        _check.instance("only_closer", self.only_closer, bool)
+
     def __call__(self, t: Transition) -> float:
         """Return the reward of a transition."""
         gain = distance(t.s, self.goal) - distance(t.s_next, self.goal)
@@ -162,6 +165,8 @@ class Total:
 
 def distance(pose: Pose, goal: Cell) -> float:
     """Straight distance from a pose to a cell, in cells."""
+    _check.instance("pose", pose, Pose)
+    goal = _check.cell("goal", goal)
     return math.sqrt((goal[0] - pose.x) ** 2 + (goal[1] - pose.y) ** 2)
 
 
@@ -202,7 +207,8 @@ class Feature:
     def size(self, world: GridWorld, robot: Robot) -> int:
         """Return the number of levels for this world and robot."""
         if callable(self.levels):
-            return _check.integer(f"levels of {self.name!r}", self.levels(world, robot), 1)
+            name = f"levels of {self.name!r}"
+            return _check.integer(name, _check.called(name, self.levels, world, robot), 1)
         return self.levels
 
     def level(self, pose: Pose, world: GridWorld, robot: Robot) -> int:
@@ -259,7 +265,7 @@ def goal_bearing(sectors: int = 8) -> Feature:
 
 def goal_distance(bins: tuple[float, ...] = (1.5, 3.0, 6.0)) -> Feature:
     """Perceive in which bin the straight distance to the goal lies; `bins` are the ascending limits, in cells."""
-    limits = tuple(_check.number("bins", b, 0) for b in bins)
+    limits = tuple(_check.number("bins", b, 0) for b in _check.items("bins", bins, "ascending distances"))
     if not limits or any(b <= a for a, b in pairwise(limits)):
         _check.fail("bins", "ascending distances", _check.show(bins))
     return Feature(
@@ -274,4 +280,4 @@ def moves_ahead() -> Feature:
 
 def table_rows(features: tuple[Feature, ...], world: GridWorld, robot: Robot) -> int:
     """Count the situations that the features can tell apart on paper: the product of their levels."""
-    return int(np.prod([feature.size(world, robot) for feature in features], dtype=np.int64))
+    return math.prod(feature.size(world, robot) for feature in features)

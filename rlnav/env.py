@@ -73,7 +73,7 @@ class GridRobotEnv(gym.Env[Any, Any]):
         task = Task(GridWorld.from_ascii(maps.OBSTACLES)) if task is None else task
         self.task: Task = _check.instance("task", task, Task)
         self.max_steps = _check.integer("max_steps", max_steps, 1)
-        if render_mode not in (None, "ansi"):
+        if render_mode is not None and not (isinstance(render_mode, str) and render_mode == "ansi"):
             _check.fail("render_mode", "None or 'ansi'", _check.show(render_mode), "Figures are made by `rl.plot`.")
         self.render_mode = render_mode
         mdp = self.task.mdp()
@@ -126,7 +126,7 @@ if ID not in gym.registry:  # a reload must not register it twice
 
 
 # ---------------------------------------------------------------- a toy-text table as an MDP
-class Outcome(NamedTuple):
+class _Outcome(NamedTuple):
     """One entry of a toy-text table: what may come of action a in state s."""
 
     s: int
@@ -207,7 +207,7 @@ def _size(P: Any) -> tuple[int, int]:
     return len(actions), actions[0]
 
 
-def _outcomes(P: Any, s: int, a: int, S: int) -> Iterator[Outcome]:
+def _outcomes(P: Any, s: int, a: int, S: int) -> Iterator[_Outcome]:
     """Check the outcomes of one state and action; leave out those without probability."""
     place, total = f"env.P[{s}][{a}]", 0.0
     try:
@@ -222,7 +222,7 @@ def _outcomes(P: Any, s: int, a: int, S: int) -> Iterator[Outcome]:
             _check.fail(f"terminated of {place}", "True or False", _check.show(over), kind=TypeError)
         total += p
         if p > 0:
-            yield Outcome(s, a, p, s_next, r, bool(over))
+            yield _Outcome(s, a, p, s_next, r, bool(over))
     if abs(total - 1) > SUM:
         _check.fail(place, "outcomes whose probabilities sum to 1", f"the sum {total:.12g}")
 
@@ -230,7 +230,7 @@ def _outcomes(P: Any, s: int, a: int, S: int) -> Iterator[Outcome]:
 def _starts(env: Any, start: ArrayLike | None, S: int, ended: set[int]) -> NDArray[np.int64]:
     """Start states: as given, or as the environment draws them, or all in which an episode can be under way."""
     if start is not None:
-        return _check.array("start", np.atleast_1d(start), "integer", (None,), "states")
+        return _check.states("start", start)
     chance = getattr(getattr(env, "unwrapped", env), "initial_state_distrib", None)
     if chance is None:
         return np.array([s for s in range(S) if s not in ended], np.int64)

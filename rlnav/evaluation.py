@@ -74,7 +74,7 @@ def evaluate(mdp: MDP, pi: ArrayLike, *, max_steps: int = 200) -> Evaluation:
     success 0.640, crash 0.360, time-out 0.000, 1.80 steps, value 2.480 of 2.480
     """
     _check.instance("mdp", mdp, MDP)
-    max_steps = _check.integer("max_steps", max_steps, 1)
+    max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     value, optimal = evaluate_policy(mdp, pi), solve(mdp, tol=1e-10).V
     where, steps = _follow(mdp, *under_policy(mdp, pi)[:2], max_steps)
     return Evaluation(

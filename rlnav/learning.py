@@ -312,6 +312,8 @@ def _with_rule(rule, mdp, phi, Q, alpha, epsilon, max_steps, rng, log):
             if mdp.terminal[s]:
                 break
         record(log, e, Q, G, t, s)
+    for z in np.flatnonzero(~np.isfinite(Q).all(axis=1)):
+        _refuse_row(Q, int(z))
 
 
 def _obey(rule: Rule, Q: NDArray, z: int, a: int, *rest: float) -> None:
@@ -320,4 +322,8 @@ def _obey(rule: Rule, Q: NDArray, z: int, a: int, *rest: float) -> None:
         advice = "It changes the table in place: Q[s, a] += alpha * (target - Q[s, a])."
         _check.fail("rule", "a function that returns nothing", _check.show(out), advice, TypeError)
     if not np.isfinite(Q[z]).all():
-        _check.fail("rule", "a function that keeps Q finite", f"{Q[z]} in row {z}")
+        _refuse_row(Q, z)
+
+
+def _refuse_row(Q: NDArray, z: int) -> None:
+    _check.fail("rule", "a function that keeps Q finite", f"{_check.show(Q[z])} in row {z}")

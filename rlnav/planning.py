@@ -21,6 +21,7 @@ from .prediction import evaluate_policy
 
 EVALUATIONS = 10  # policy sweeps of `solve` between two greedy ones, at most
 ENOUGH = 0.1  # ... and they stop early once they change values by less than this share of the greedy sweep's change
+MOST_SWEEPS = 200_000  # where neither the reader nor the contraction sets a lower limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,14 +123,16 @@ def policy_iteration(mdp: MDP, *, pi: ArrayLike | None = None) -> Solution:
     R. A. Howard, Dynamic Programming and Markov Processes, MIT Press, 1960.
     """
     _check.instance("mdp", mdp, MDP)
-    policy = _towards_the_end(mdp) if pi is None else np.array(pi)
+    policy = _towards_the_end(mdp) if pi is None else _check.plain("pi", pi, "one action a state")
     if policy.ndim != 1:
         _check.fail("pi", "one action a state", f"shape {policy.shape}")
     s = np.arange(mdp.S)
+    rest, stay = _at_rest(mdp)
     residuals: list[float] = []
     while True:
         V = evaluate_policy(mdp, policy)
         Q = action_values(mdp, V)
+        Q[rest, stay] = np.maximum(Q[rest, stay], 0.0)  # nothing for ever is worth 0, whatever V says so far
         gain = Q.max(axis=1) - Q[s, policy]
         residuals.append(float(gain.max()))
         better = gain > TIE * max(1.0, float(np.abs(V).max()))
@@ -253,7 +256,7 @@ def _stopping_rule(mdp: MDP, tol: float, max_sweeps: int | None) -> tuple[float,
         return tol, 10_000 + 10 * mdp.S
     if mdp.gamma == 0:
         return tol, 2
-    return tol, 2 + max(0, math.ceil(math.log(tol / largest) / math.log(mdp.gamma)))
+    return tol, min(MOST_SWEEPS, 2 + max(0, math.ceil(math.log(tol / largest) / math.log(mdp.gamma))))
 
 
 def _solution(mdp: MDP, V: NDArray, Q: NDArray, residuals: list[float], tol: float, max_sweeps: int | None) -> Solution:
@@ -262,7 +265,23 @@ def _solution(mdp: MDP, V: NDArray, Q: NDArray, residuals: list[float], tol: flo
         got = f"values that still move by {residuals[-1]:.3g} after {len(residuals)} sweeps"
         advice = "Some policy collects reward without end, or none ends. Take gamma < 1, or mend rewards or ends."
         _check.fail("mdp", "a problem whose optimal values are finite at gamma = 1", got, advice)
+    if max_sweeps is None and not converged and len(residuals) == MOST_SWEEPS:
+        got = f"values that still move by {residuals[-1]:.3g}, at gamma = {mdp.gamma!r}"
+        advice = "Take a smaller gamma, a larger tol or `policy_iteration`."
+        _check.fail("mdp", f"a problem that {MOST_SWEEPS:,} sweeps can solve", got, advice)
     return Solution(V, Q, greedy(Q), np.array(residuals), converged)
+
+
+def _at_rest(mdp: MDP) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """At gamma = 1: states that need never be left, except for each other, nor paid for; and an action that does so."""
+    possible = mdp.prob > 0
+    unpaid = (~possible | (mdp.reward == 0)).all(axis=2)
+    rest = np.full(mdp.S, mdp.gamma == 1)
+    while True:
+        stays = unpaid & (~possible | rest[mdp.next_state]).all(axis=2)
+        if (stays.any(axis=1) == rest).all():
+            return np.flatnonzero(rest), stays.argmax(axis=1)[rest]
+        rest = stays.any(axis=1)
 
 
 def _towards_the_end(mdp: MDP) -> NDArray[np.int64]:

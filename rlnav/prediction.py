@@ -66,7 +66,11 @@ def _solve_directly(mdp: MDP, next_state: NDArray, prob: NDArray, r: NDArray) ->
         before = paid.sum()
         paid = paid | (P[:, paid] > 0).any(axis=1)
     V = np.zeros(mdp.S)
-    V[paid] = np.linalg.solve(np.eye(paid.sum()) - mdp.gamma * P[np.ix_(paid, paid)], r[paid])
+    try:
+        V[paid] = np.linalg.solve(np.eye(paid.sum()) - mdp.gamma * P[np.ix_(paid, paid)], r[paid])
+    except np.linalg.LinAlgError:
+        advice = "Take a smaller gamma, or a larger chance of an end."
+        _check.fail("pi", "a policy that ends", "one whose chance to end is lost in rounding", advice)
     return V
 
 

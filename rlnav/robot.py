@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 
 from . import _check
 
 HEADINGS = tuple(range(0, 360, 45))
+FARTHEST = 1_000_000  # cells from the origin
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,8 +37,8 @@ class Pose:
         theta = _check.integer("theta", self.theta)
         if theta % 45:
             _check.fail("theta", "a multiple of 45 degrees", str(theta))
-        object.__setattr__(self, "x", _check.integer("x", self.x))
-        object.__setattr__(self, "y", _check.integer("y", self.y))
+        object.__setattr__(self, "x", _check.integer("x", self.x, -FARTHEST, FARTHEST))
+        object.__setattr__(self, "y", _check.integer("y", self.y, -FARTHEST, FARTHEST))
         object.__setattr__(self, "theta", theta % 360)
 
 
@@ -127,9 +127,7 @@ class Robot:
 
 def _steering_set(steering: object) -> tuple[int, ...]:
     expected = "a set of different multiples of 45 degrees from -180 to 180, such as (-45, 0, 45)"
-    if isinstance(steering, str) or not isinstance(steering, Iterable):
-        _check.fail("steering", expected, _check.show(steering), kind=TypeError)
-    turns = tuple(_check.integer("steering", a) for a in steering)
+    turns = tuple(_check.integer("steering", a) for a in _check.items("steering", steering, expected))
     if not turns:
         _check.fail("steering", expected, "an empty set")
     for i, a in enumerate(turns):

@@ -76,7 +76,7 @@ def rollout(mdp: MDP, pi: ArrayLike, *, start: int | None = None, max_steps: int
     """
     _check.instance("mdp", mdp, MDP)
     pi = check_policy(mdp, pi)
-    max_steps = _check.integer("max_steps", max_steps, 1)
+    max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     generator, model = _check.generator(rng), arrays(mdp)
     chance = generator.random()
     s = int(draw_start(model, chance)) if start is None else _check.integer("start", start, 0, mdp.S - 1)

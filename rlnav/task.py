@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -178,11 +177,10 @@ class Task:
 def _features(features: object) -> object:
     if features is None or isinstance(features, Feature):
         return None if features is None else (features,)
-    if isinstance(features, Iterable) and not isinstance(features, str):
-        features = tuple(features)
+    if not callable(features):
+        features = _check.items("features", features, "features(pose), a Feature or a list of Features")
         for feature in features:
             _check.instance("features", feature, Feature)
         if not features:
             _check.fail("features", "at least one Feature, or None for the whole pose", "none")
-        return features
-    return _check.function("features", features, "features(pose), a Feature or a list of Features")
+    return features

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -59,7 +58,8 @@ class GridWorld:
         if self.goal in self.obstacles:
             _check.fail("goal", "a free cell", f"{self.goal}, an obstacle")
         near = reachable(self.goal, self.width, self.height, self.obstacles)
-        starts = list(self.starts) or [Pose(*cell, th) for cell in sorted(near - {self.goal}) for th in HEADINGS]
+        starts = _check.items("starts", self.starts, "poses")
+        starts = starts or tuple(Pose(*cell, theta) for cell in near - {self.goal} for theta in HEADINGS)
         if not starts:
             _check.fail(
                 "goal", "a cell that can be reached", f"{self.goal}, walled in", "Remove an obstacle beside it."
@@ -111,10 +111,14 @@ class GridWorld:
 
     def blocked(self, x: int, y: int) -> bool:
         """Whether the cell lies outside or is an obstacle."""
+        for name, value in (("x", x), ("y", y)):
+            _check.integer(name, value)
         return _blocked(x, y, self.width, self.height, self.obstacles)
 
     def crash(self, x: int, y: int, x_next: int, y_next: int) -> bool:
         """Whether the move between two neighbouring cells hits something: its target, or a corner that it would cut."""
+        for name, value in (("x", x), ("y", y), ("x_next", x_next), ("y_next", y_next)):
+            _check.integer(name, value)
         return _crash(x, y, x_next, y_next, self.width, self.height, self.obstacles)
 
     def __str__(self) -> str:
@@ -135,13 +139,9 @@ class GridWorld:
 
     def _cells(self, name: str, cells: Any) -> list[Cell]:
         expected = f"(x, y) inside the {self.width} x {self.height} grid"
-        if isinstance(cells, str) or not isinstance(cells, Iterable):
-            _check.fail(name, f"cells {expected}", _check.show(cells), kind=TypeError)
         clean = []
-        for cell in cells:
-            if isinstance(cell, str) or not isinstance(cell, Iterable) or len(pair := tuple(cell)) != 2:
-                _check.fail(name, expected, _check.show(cell), kind=TypeError)
-            x, y = (_check.integer(name, c) for c in pair)
+        for cell in _check.items(name, cells, f"cells {expected}"):
+            x, y = _check.cell(name, cell)
             if not (0 <= x < self.width and 0 <= y < self.height):
                 _check.fail(name, expected, f"({x}, {y})")
             clean.append((x, y))
