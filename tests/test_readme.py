@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+import picture
 import pytest
 
 README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
@@ -27,5 +28,11 @@ def test_the_files_that_the_readme_links_exist():
 
 def test_the_make_targets_in_the_readme_exist():
     makefile = (Path(__file__).parents[1] / "Makefile").read_text(encoding="utf-8")
-    for target in set(re.findall(r"make (\w+) ", README)):
+    targets = set(re.findall(r"(?:^|`)make (\w+)", README, re.MULTILINE))
+    assert {"book", "test"} <= targets
+    for target in targets:
         assert re.search(rf"^{target}:", makefile, re.MULTILINE), target
+
+
+def test_the_picture_is_what_the_library_draws():
+    assert picture.FILE.read_text(encoding="utf-8") == picture.draw(), "run `python tools/picture.py`"
