@@ -157,8 +157,8 @@ def _draw_branches(ax: Axes, node: Node, best: bool) -> None:
         if branch.edge is not None:
             right = branch.x >= node.x
             x, y = 0.42 * node.x + 0.58 * branch.x, 0.42 * node.y + 0.58 * branch.y
-            side = {"ha": "left" if right else "right", "va": "center", "size": SMALL, "color": MUTED}
-            ax.text(x + (0.07 if right else -0.07), y, _text(branch.edge), **side)
+            side = {"ha": "left" if right else "right", "va": "bottom", "size": SMALL, "color": MUTED}
+            ax.text(x + (0.05 if right else -0.05), y, _text(branch.edge), **side)
     if best and len(node.below) > 1:
         first, last = (
             np.arctan2(branch.y - node.y, branch.x - node.x) for branch in node.below[:: len(node.below) - 1]
@@ -173,9 +173,9 @@ def _draw_node(ax: Axes, node: Node, is_state: bool) -> None:
     if node.value is None or node.level == 0:
         return
     if node.below:
-        ax.text(node.x + 0.13, node.y, _text(node.value), ha="left", va="center", size=TEXT, color=INK)
+        ax.text(node.x + 0.17, node.y, _text(node.value), ha="left", va="center", size=TEXT, color=INK)
     else:
-        ax.text(node.x, node.y - 0.13, _text(node.value), ha="center", va="top", size=TEXT, color=INK)
+        ax.text(node.x, node.y - 0.16, _text(node.value), ha="center", va="top", size=TEXT, color=INK)
 
 
 def _draw_words(ax: Axes, root: Node, shape: Kind, x: float) -> None:

@@ -1,6 +1,6 @@
 """How every figure looks: colours, sizes, and the axes to draw on.
 
-Figures are drawn for a light ground and have none of their own; a dark page puts a light card below them.
+Figures are drawn for a white ground, which `to_svg` puts below them; a dark page dims it a little.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ TEXT, SMALL = 10.0, 9.0  # points
 VIRIDIS = mpl.colormaps["viridis"](np.linspace(0.08, 1, 64))
 SEQUENTIAL = ListedColormap(VIRIDIS, name="rlnav-sequential").with_extremes(under="#17111f")
 DIVERGING = LinearSegmentedColormap.from_list(
-    "rlnav-diverging", ["#8a3800", VERMILION, "#f2b48c", "#f7f7f7", "#8fc1e3", BLUE, "#00416b"], N=65
+    "rlnav-diverging", ["#8a3800", VERMILION, "#f2b48c", "#eeeeee", "#8fc1e3", BLUE, "#00416b"], N=65
 )
 
 

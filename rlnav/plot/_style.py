@@ -20,6 +20,8 @@ SALT = "rlnav"  # names inside an SVG are hashes: salted, they are the same in e
 COORDINATES = re.compile(r' (?:d|x|y)="[^"]*"')
 BEYOND_HUNDREDTHS = re.compile(r"(\.\d\d)\d+")
 
+GROUND = 'style="background: white"'  # dark notebooks too show the figure as it was drawn
+
 SETTINGS: dict[str, Any] = {
     "axes.axisbelow": True,
     "axes.edgecolor": MUTED,
@@ -93,7 +95,7 @@ def to_svg(figure: Figure, bbox_inches: str | None = None) -> str:
     text = io.StringIO()
     with mpl.rc_context({"svg.hashsalt": SALT}):
         figure.savefig(text, format="svg", dpi=DPI, bbox_inches=bbox_inches, metadata={"Date": None, "Creator": None})
-    svg = text.getvalue()
+    svg = text.getvalue().replace("<svg ", f"<svg {GROUND} ", 1)
     return COORDINATES.sub(lambda found: BEYOND_HUNDREDTHS.sub(r"\1", found[0]), svg[svg.index("<svg") :])
 
 

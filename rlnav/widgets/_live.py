@@ -20,9 +20,6 @@ from ._controls import describe, listed, make_controls, name_of, tidy
 _PLAIN_IN_URL = " !$&'()*+,-./:;=?@[]^_`{|}~"  # left as they are: shorter than base64, and text compresses well
 
 
-_CARD = "var(--rl-card, #fff)"  # figures are drawn for a light ground, and have none of their own
-
-
 @dataclass(frozen=True)
 class _Shown:
     """What one call of the function put on the page: HTML, the sentence below it, and both in words for a test."""
@@ -150,7 +147,7 @@ def _render_figure(figure: Figure, sentence: str, alt: str) -> _Shown:
     width, height = (round(96 * inches) for inches in figure.get_size_inches())  # known before the image has loaded
     image = (
         f'<img src="data:image/svg+xml,{quote(svg, safe=_PLAIN_IN_URL)}" alt="{escape(alt)}" '
-        f'width="{width}" height="{height}" style="max-width: 100%; height: auto; background: {_CARD}">'
+        f'width="{width}" height="{height}" style="max-width: 100%; height: auto">'
     )
     digest = hashlib.sha256(svg.encode()).hexdigest()[:12]
     return _Shown(image, sentence, "\n".join(filter(None, [f"shows: {alt}", sentence, f"figure {digest}"])))
