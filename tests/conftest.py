@@ -1,16 +1,23 @@
 """What all tests share: no windows, steady random examples, and an end to whatever hangs."""
 
 import faulthandler
+import hashlib
 import os
 import signal
 import sys
+from pathlib import Path
 
-import pytest
-from hypothesis import settings
-
-import rlnav as rl
-
+# Machine code is kept for the next run, but not beyond a change of the source: numba notices one in the file of a loop,
+# but none in a file from which the loop takes functions.  It has to know the folder before it is imported.
+ROOT = Path(__file__).parents[1]
+SOURCE = b"".join(path.read_bytes() for path in sorted(ROOT.glob("rlnav/*.py")))
+os.environ["NUMBA_CACHE_DIR"] = str(ROOT / ".pytest_cache" / f"numba-{hashlib.sha256(SOURCE).hexdigest()[:12]}")
 os.environ["MPLBACKEND"] = "Agg"
+
+import pytest  # noqa: E402
+from hypothesis import settings  # noqa: E402
+
+import rlnav as rl  # noqa: E402
 
 # The same examples in every run; HYPOTHESIS_PROFILE=explore looks for new ones, many more of them.
 settings.register_profile("steady", derandomize=True, database=None, deadline=None, max_examples=60)

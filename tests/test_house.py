@@ -164,8 +164,8 @@ def test_modules_and_functions_are_short(name):
 def documented():
     """The public functions and classes, and the public methods of these classes, each under its full name."""
     modules = [getattr(rl, name) for name in ("maps", "designs", "plot", "env")]
-    names = {place: [name for name in vars(place) if name[0] != "_"] for place in modules} | {rl: rl.__all__}
-    for place, thing in ((place, getattr(place, name)) for place in names for name in names[place]):
+    found = [(rl, name) for name in rl.__all__] + [(place, name) for place in modules for name in vars(place)]
+    for place, thing in ((place, getattr(place, name)) for place, name in found if name[0] != "_"):
         own = inspect.isroutine(thing) or inspect.isclass(thing)
         if own and (place is rl or thing.__module__.startswith(place.__name__)):
             yield f"{thing.__module__}.{thing.__qualname__}", thing

@@ -10,7 +10,8 @@ from rlnav.robot import HEADINGS
 
 from .strategies import SEEDS, SLIPS, STEERINGS, mdps, policies, values, worlds
 
-UNDISCOUNTED = st.just(1.0)
+pytestmark = pytest.mark.usefixtures("no_hang")
+
 PLANNERS = [rl.value_iteration, rl.policy_iteration, rl.solve]
 
 

@@ -26,6 +26,7 @@ def risky(slip=0.0):
 
 @pytest.fixture(autouse=True)
 def no_figure_stays_open():
+    plt.close("all")  # what other tests left
     yield
     assert plt.get_fignums() == []
 

@@ -19,6 +19,8 @@ from rlnav import _compile, learning, montecarlo, planning
 from . import models
 from .strategies import mdps, policies
 
+pytestmark = pytest.mark.usefixtures("no_hang")
+
 LEARNERS = [rl.q_learning, rl.sarsa, rl.expected_sarsa, rl.double_q_learning, rl.monte_carlo]
 
 
