@@ -48,7 +48,7 @@ execute: $(READY)  ## run the chapters and store their results
 
 clean:  ## remove the built book and every cache, but not .venv
 	rm -rf _build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
-	find book rlnav tests tools -name __pycache__ -prune -exec rm -rf {} +
+	find benchmarks book rlnav tests tools -name __pycache__ -prune -exec rm -rf {} +
 
 $(READY): requirements.txt pyproject.toml tools/setup.py
 	@test -n "$(PYTHON)" || { echo "rlnav needs Python 3.11 or newer; none was found. Install it from" \
