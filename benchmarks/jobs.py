@@ -5,17 +5,17 @@ from __future__ import annotations
 import time
 from typing import Any
 
-import measure
 import numpy as np
+
+import measure
 
 LESSON: dict[str, Any] = {"episodes": 500, "alpha": 0.1, "epsilon": 0.1, "max_steps": 200, "rng": 0}
 
 
 def lesson() -> float:
     """Return the CPU seconds of the classroom's job: 500 episodes of Q-learning on a 10 x 10 map, warm."""
-    from problem import robot
-
     import rlnav as rl
+    from problem import robot
 
     mdp = robot(10, slip=0.1, density=0.1)
     rl.q_learning(mdp, **LESSON)
@@ -46,9 +46,8 @@ def imports() -> tuple[float, float]:
 
 def memory(n: int) -> float:
     """Return the bytes a pair (s, a) that a model and its solution take at most, the model's own 60 included."""
-    from problem import robot
-
     import rlnav as rl
+    from problem import robot
 
     rl.solve(robot(4))  # imports and compilation stay outside
     before = measure.resident()

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from limits import BUILT
 
 import rlnav as rl
+from limits import BUILT
 
 GAMMA = 0.99  # values have to travel far
 FIELDS = ("next_state", "prob", "reward", "terminal", "start", "goal")

@@ -16,13 +16,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import limits
 import numpy as np
+
+import limits
 import peers
+import rlnav as rl
 from measure import fresh, ratio
 from problem import GAMMA, robot
-
-import rlnav as rl
 
 BOOK = Path(__file__).parent.parent / "book"
 ERROR = 1e-6  # how near to v* every planner must come
