@@ -79,7 +79,8 @@ def test_every_public_name_lives_where_a_type_checker_looks_for_it():
 LEARN_A_LITTLE = """
 import numpy as np, rlnav as rl
 mdp = rl.Task(rl.GridWorld.from_ascii(">.G")).mdp()
-print(rl.__file__, rl.solve(mdp).V[0], float(rl.q_learning(mdp, episodes=20, rng=0).Q.sum()).hex())
+print(rl.__file__)
+print(rl.solve(mdp).V[0], float(rl.q_learning(mdp, episodes=20, rng=0).Q.sum()).hex())
 """
 
 
@@ -109,14 +110,14 @@ def test_a_read_only_installation_without_any_cache_folder_works(read_only_copy,
     env = {name: value for name, value in os.environ.items() if not name.startswith(("NUMBA_", "PYTHON", "XDG_"))}
     env |= {"HOME": "/dev/null", "PYTHONPATH": str(read_only_copy.parent)}  # no folder can be made below /dev/null
     answer = python(LEARN_A_LITTLE + also, cwd=read_only_copy.parent, env=env)
-    place, *numbers = answer.split()
+    place, *numbers = answer.splitlines()
     assert Path(place).parent == read_only_copy
-    assert numbers == python(LEARN_A_LITTLE).split()[1:]
+    assert numbers == python(LEARN_A_LITTLE).splitlines()[1:]
 
 
 def test_the_library_runs_without_numba_and_without_figures():
     without = "import sys\nfor name in ('numba', 'matplotlib', 'gymnasium', 'ipywidgets'): sys.modules[name] = None\n"
-    assert python(without + LEARN_A_LITTLE).split()[1:] == python(LEARN_A_LITTLE).split()[1:]
+    assert python(without + LEARN_A_LITTLE).splitlines()[1:] == python(LEARN_A_LITTLE).splitlines()[1:]
 
 
 def test_what_is_missing_is_named_with_the_way_to_get_it():
