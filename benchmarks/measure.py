@@ -1,4 +1,4 @@
-"""How to measure on a machine that others use too: CPU time, ratios of neighbours in time, and fresh processes."""
+"""How to measure on a machine that others use too: CPU time, ratios of neighbors in time, and fresh processes."""
 
 from __future__ import annotations
 

@@ -87,7 +87,7 @@ class Robot:
         Returns
         -------
         Pose
-            One of the eight neighbouring cells, whether it is free or not.
+            One of the eight neighboring cells, whether it is free or not.
         """
         _check.instance("pose", pose, Pose)
         if _check.integer("a", a) not in self.steering:

@@ -116,7 +116,7 @@ class GridWorld:
         return _blocked(x, y, self.width, self.height, self.obstacles)
 
     def crash(self, x: int, y: int, x_next: int, y_next: int) -> bool:
-        """Whether the move between two neighbouring cells hits something: its target, or a corner that it would cut."""
+        """Whether the move between two neighboring cells hits something: its target, or a corner that it would cut."""
         for name, value in (("x", x), ("y", y), ("x_next", x_next), ("y_next", y_next)):
             _check.integer(name, value)
         return _crash(x, y, x_next, y_next, self.width, self.height, self.obstacles)
@@ -158,7 +158,7 @@ class GridWorld:
 
 
 def reachable(cell: Cell, width: int, height: int, obstacles: frozenset[Cell]) -> set[Cell]:
-    """Cells from which `cell` can be reached by moves to free neighbours, and itself."""
+    """Cells from which `cell` can be reached by moves to free neighbors, and itself."""
     reached, frontier = {cell}, [cell]
     while frontier:
         x, y = frontier.pop()

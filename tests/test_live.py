@@ -82,7 +82,7 @@ def test_a_notebook_gets_controls_and_a_page_without_python_gets_the_figure_alon
     assert page(live).split("<img")[1].split(">")[0] in bundle["text/html"]
 
 
-def test_the_short_forms_give_labelled_controls():
+def test_the_short_forms_give_labeled_controls():
     def show(a=2, b=0.25, c="north", d=True, e=0.0):
         return f"{a} {b} {c} {d} {e}"
 

@@ -16,7 +16,7 @@ from matplotlib.patches import Circle, Rectangle
 import rlnav as rl
 from rlnav.plot._backup import KINDS
 from rlnav.plot._ground import ROBOT
-from rlnav.plot._look import COLOURS, limits, minus
+from rlnav.plot._look import COLORS, limits, minus
 from rlnav.plot._policy import needle
 
 TASK = rl.Task(rl.GridWorld.from_ascii(rl.maps.OBSTACLES))
@@ -139,7 +139,7 @@ def test_the_style_makes_own_figures_transparent_and_their_svg_repeatable():
         figure, _ = plt.subplots()
         assert to_rgba(figure.get_facecolor())[3] == 0
         assert mpl.rcParams["svg.hashsalt"]
-        assert mpl.rcParams["axes.prop_cycle"].by_key()["color"] == list(COLOURS)
+        assert mpl.rcParams["axes.prop_cycle"].by_key()["color"] == list(COLORS)
 
 
 # ---------------------------------------------------------------- the map
@@ -171,18 +171,18 @@ def test_a_second_drawing_on_the_same_axes_draws_no_second_map():
 # ---------------------------------------------------------------- values
 
 
-def test_every_wedge_has_the_colour_of_its_pose_in_the_direction_of_its_heading():
+def test_every_wedge_has_the_color_of_its_pose_in_the_direction_of_its_heading():
     (cells,) = rl.plot.values(TASK, BEST.V).collections
     paths, offsets = cells.get_paths(), cells.get_offsets()
     cells.update_scalarmappable()
-    colours = cells.get_facecolors()
+    colors = cells.get_facecolors()
     assert len(offsets) == len(SHOWN)
     for i, s in enumerate(SHOWN):
         pose = TASK.poses[s]
         middle = paths[i % len(paths)].vertices[:-1].mean(axis=0)
         assert tuple(offsets[i]) == (pose.x, pose.y)
         assert direction(middle) == pose.theta
-        assert colours[i] == pytest.approx(cells.cmap(cells.norm(BEST.V[s])))
+        assert colors[i] == pytest.approx(cells.cmap(cells.norm(BEST.V[s])))
 
 
 def test_one_heading_gives_one_square_a_cell_with_its_number():
@@ -194,19 +194,19 @@ def test_one_heading_gives_one_square_a_cell_with_its_number():
     assert float(texts(ax)[0].replace("−", "-")) == pytest.approx(BEST.V[of_heading[0]], abs=0.05)
 
 
-def test_a_higher_value_is_a_brighter_colour():
+def test_a_higher_value_is_a_brighter_color():
     grey = rl.plot.SEQUENTIAL(np.linspace(0, 1, 64))[:, :3] @ (0.2126, 0.7152, 0.0722)
     assert (np.diff(grey) > 0).all()
 
 
-def test_values_far_below_the_others_are_off_the_scale_and_the_colour_bar_says_so():
+def test_values_far_below_the_others_are_off_the_scale_and_the_color_bar_says_so():
     ax = rl.plot.values(TASK, BEST.V)
     (cells,) = ax.collections
     doomed = BEST.V[SHOWN] < cells.norm.vmin
     assert doomed.any()
     assert (BEST.V[SHOWN][doomed] == -10).all()
     cells.update_scalarmappable()
-    assert {to_hex(colour) for colour in cells.get_facecolors()[doomed]} == {to_hex(rl.plot.SEQUENTIAL.get_under())}
+    assert {to_hex(color) for color in cells.get_facecolors()[doomed]} == {to_hex(rl.plot.SEQUENTIAL.get_under())}
     assert cells.colorbar.extend == "min"
 
 
@@ -301,7 +301,7 @@ def test_only_a_path_that_ran_out_of_time_ends_with_a_square():
     assert squares(EPISODE) == []
 
 
-def test_several_paths_differ_in_colour_and_dashes_and_are_named():
+def test_several_paths_differ_in_color_and_dashes_and_are_named():
     ax = rl.plot.path(TASK, {"optimal": EPISODE, "again": EPISODE})
     rl.plot.path(TASK, EPISODE, ax, label="third")
     assert len({line.get_color() for line in ax.lines}) == 3
@@ -426,7 +426,7 @@ def test_numbers_are_written_into_a_backup_diagram_and_the_best_branches_stand_o
     tree = (3, [("left", 1, []), ("ahead", 3, [(0.5, 2), (0.5, 4)]), ("right", 3.0, [])])
     ax = rl.plot.backup_diagram("v_star", numbers=tree)
     assert {"left", "ahead", "right", "0.5", "1", "2", "4", "$v_*(s)$ = 3"} <= set(texts(ax))
-    thick = [line for line in ax.lines if line.get_color() == COLOURS[0]]
+    thick = [line for line in ax.lines if line.get_color() == COLORS[0]]
     assert len(thick) == 2
 
 

@@ -28,7 +28,7 @@ from nbformat import NotebookNode
 from canonical import canonical, read, widget_models
 
 ROOT = Path(__file__).resolve().parent.parent
-COLOURS = re.compile(r"\x1b\[[0-9;]*m")  # of a terminal, in tracebacks
+COLORS = re.compile(r"\x1b\[[0-9;]*m")  # of a terminal, in tracebacks
 BUDGET = 20.0  # seconds that a reader, and a test, may have to wait for one notebook
 
 
@@ -52,7 +52,7 @@ def execute(path: Path) -> NotebookNode:
         try:
             client.execute(env=_environment(profile))
         except (CellExecutionError, CellTimeoutError, DeadKernelError) as error:
-            raise RefusedNotebookError(f"{_last_started(notebook)} failed\n{COLOURS.sub('', str(error))}") from None
+            raise RefusedNotebookError(f"{_last_started(notebook)} failed\n{COLORS.sub('', str(error))}") from None
     for complaint in complaints(notebook):
         raise RefusedNotebookError(complaint)
     return notebook

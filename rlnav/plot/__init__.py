@@ -7,7 +7,7 @@ is touched before `style` is called.
 from ._backup import backup_diagram
 from ._ground import world
 from ._learning_curve import learning_curve
-from ._look import COLOURS, DIVERGING, SEQUENTIAL
+from ._look import COLORS, DIVERGING, SEQUENTIAL
 from ._path import path
 from ._policy import policy
 from ._residuals import residuals
@@ -16,7 +16,7 @@ from ._table import table
 from ._values import values
 
 __all__ = [
-    "COLOURS",
+    "COLORS",
     "DIVERGING",
     "SEQUENTIAL",
     "backup_diagram",

@@ -80,7 +80,7 @@ def backup_diagram(kind: str, ax: Axes | None = None, *, numbers: Sequence[Any] 
     numbers : tree, optional
         What to write: (value, branches) for the root, where each branch is (edge, value) or (edge, value, branches).
         Values and edges are numbers, texts or None.  Its shape replaces that of the textbook.  Below "max", the branch
-        with the largest value is drawn in colour.
+        with the largest value is drawn in color.
 
     Returns
     -------
@@ -152,8 +152,8 @@ def _draw_branches(ax: Axes, node: Node, best: bool) -> None:
     highest = max((float(b.value) for b in node.below if isinstance(b.value, Real)), default=0.0)
     for branch in node.below:
         wins = best and isinstance(branch.value, Real) and float(branch.value) >= highest - TIE
-        colour, width = (BLUE, 2.6) if wins else (INK, 1.2)
-        ax.plot([node.x, branch.x], [node.y, branch.y], color=colour, linewidth=width, zorder=2 + wins)
+        color, width = (BLUE, 2.6) if wins else (INK, 1.2)
+        ax.plot([node.x, branch.x], [node.y, branch.y], color=color, linewidth=width, zorder=2 + wins)
         if branch.edge is not None:
             right = branch.x >= node.x
             x, y = 0.42 * node.x + 0.58 * branch.x, 0.42 * node.y + 0.58 * branch.y

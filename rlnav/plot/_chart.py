@@ -1,4 +1,4 @@
-"""What curves have in common: their colours and dashes, the grid below and the legend above."""
+"""What curves have in common: their colors and dashes, the grid below and the legend above."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from typing import Any
 
 from matplotlib.axes import Axes
 
-from ._look import COLOURS, INK, LINES, MUTED, RULE, SMALL, plain
+from ._look import COLORS, INK, LINES, MUTED, RULE, SMALL, plain
 
 SIZE = (5.2, 3.2)  # inches
 
 
 def next_line(ax: Axes) -> dict[str, Any]:
-    """Return the colour and dashes of the next curve on these axes."""
+    """Return the color and dashes of the next curve on these axes."""
     k = sum(line.get_color() != MUTED for line in ax.lines)
-    return {"color": COLOURS[k % len(COLOURS)], "linestyle": LINES[k % len(LINES)], "linewidth": 2.0, "zorder": 3}
+    return {"color": COLORS[k % len(COLORS)], "linestyle": LINES[k % len(LINES)], "linewidth": 2.0, "zorder": 3}
 
 
 def finish(ax: Axes, notes: list[str]) -> None:

@@ -91,10 +91,10 @@ def turned(glyph: Path, x: float, y: float, theta: float = 0.0, size: float = 1.
     return Affine2D().scale(size).rotate_deg(theta).translate(x, y).transform_path(glyph)
 
 
-def draw_robot(ax: Axes, x: float, y: float, theta: int, colour: str, size: float = 1.0) -> None:
+def draw_robot(ax: Axes, x: float, y: float, theta: int, color: str, size: float = 1.0) -> None:
     """Draw the robot as an arrowhead that points where it looks."""
     shape = turned(ROBOT, x, y, theta, size)
-    ax.add_patch(PathPatch(shape, facecolor=colour, edgecolor="white", linewidth=0.8, zorder=6))
+    ax.add_patch(PathPatch(shape, facecolor=color, edgecolor="white", linewidth=0.8, zorder=6))
 
 
 def arrow(theta: int) -> str:

@@ -1,4 +1,4 @@
-"""How every figure looks: colours, sizes, and the axes to draw on.
+"""How every figure looks: colors, sizes, and the axes to draw on.
 
 Figures are drawn for a white ground, which `to_svg` puts below them; a dark page dims it a little.
 """
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from .. import _check
 
-# Okabe and Ito's colours for categories, in an order that keeps neighbours apart also in grey.
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+# Okabe and Ito's colors for categories, in an order that keeps neighbors apart also in grey.
+COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 LINES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (6, 1.5, 1.2, 1.5)), (0, (3, 1, 1, 1, 1, 1)))
-BLUE, VERMILION = COLOURS[:2]
+BLUE, VERMILION = COLORS[:2]
 
 INK = "#1f2933"  # words that matter
 MUTED = "#52606d"  # words that help: ticks, notes
@@ -33,7 +33,7 @@ FAR_OUT = 3.0  # quartile distances: Tukey's word for values so far away that th
 MANY = 1500  # glyphs on one map; more are stored as a picture, because an SVG would take megabytes for them
 TEXT, SMALL = 10.0, 9.0  # points
 
-# 64 steps look smooth, and keep the colour bar of an SVG small.  Viridis begins at a violet that walls cannot be taken
+# 64 steps look smooth, and keep the color bar of an SVG small.  Viridis begins at a violet that walls cannot be taken
 # for; what lies below the range is nearly black.
 VIRIDIS = mpl.colormaps["viridis"](np.linspace(0.08, 1, 64))
 SEQUENTIAL = ListedColormap(VIRIDIS, name="rlnav-sequential").with_extremes(under="#17111f")
@@ -63,9 +63,9 @@ def joined(lines: Iterable[Sequence[tuple[float, float]]], *, closed: bool = Fal
     return Path.make_compound_path(*(Path([*line, line[0]] if closed else line, closed=closed) for line in lines))
 
 
-def readable_on(colour: tuple[float, float, float, float]) -> str:
-    """Black or white, whichever is easier to read on a colour."""
-    red, green, blue = ((c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for c in colour[:3])
+def readable_on(color: tuple[float, float, float, float]) -> str:
+    """Black or white, whichever is easier to read on a color."""
+    red, green, blue = ((c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4) for c in color[:3])
     return "white" if 0.2126 * red + 0.7152 * green + 0.0722 * blue < 0.18 else "black"
 
 
@@ -75,7 +75,7 @@ def minus(text: str) -> str:
 
 
 def limits(V: NDArray[np.float64], vmin: float | None, vmax: float | None, signed: bool) -> tuple[float, float]:
-    """Choose the ends of the colour scale where they are not given; zero is in the middle of a signed one."""
+    """Choose the ends of the color scale where they are not given; zero is in the middle of a signed one."""
     given = [_check.number(name, end) for name, end in (("vmin", vmin), ("vmax", vmax)) if end is not None]
     if signed:
         reach = float(np.abs(given or V).max()) or 1.0

@@ -15,7 +15,7 @@ from ..robot import Pose
 from ..rollouts import Episode
 from ..task import Task
 from ._ground import draw_robot, ground, turned
-from ._look import COLOURS, INK, LINES, SMALL, joined
+from ._look import COLORS, INK, LINES, SMALL, joined
 
 APART = 0.09  # cells between two paths on the same way
 DISC = turned(Path.unit_circle(), 0, 0, size=0.24)
@@ -32,7 +32,7 @@ def path(
 ) -> Axes:
     """Draw the way of the robot: an arrowhead at every pose, a disc at the start, and a cross where it crashed.
 
-    An episode that ran out of time ends with a square.  Further paths on the same axes get the next colour and dashes.
+    An episode that ran out of time ends with a square.  Further paths on the same axes get the next color and dashes.
 
     Parameters
     ----------
@@ -92,13 +92,13 @@ def _named(task: Task, episodes: Any, label: str | None) -> list[tuple[str, Epis
 
 
 def _draw_path(ax: Axes, task: Task, episode: Episode, k: int, name: str, shift: float) -> None:
-    colour = COLOURS[k % len(COLOURS)]
+    color = COLORS[k % len(COLORS)]
     poses = [pose for s in episode.states if (pose := task.pose(int(s))) is not None]
     way = [(pose.x + shift, pose.y + shift) for pose in poses]
     crash = [(x + shift, y + shift) for x, y in _crash_site(task, episode, poses)]
     ax.plot(
         *zip(*way, *crash, strict=True),
-        color=colour,
+        color=color,
         label=name or "_path",
         linestyle=LINES[k % len(LINES)],
         linewidth=2,
@@ -107,14 +107,14 @@ def _draw_path(ax: Axes, task: Task, episode: Episode, k: int, name: str, shift:
         scaley=False,
         zorder=5,
     )
-    _draw_mark(ax, turned(DISC, *way[0]), "white", colour)
+    _draw_mark(ax, turned(DISC, *way[0]), "white", color)
     if episode.truncated:
-        _draw_mark(ax, turned(BOX, *way[-1]), "white", colour)
+        _draw_mark(ax, turned(BOX, *way[-1]), "white", color)
     for pose, (x, y) in zip(poses, way, strict=True):
-        draw_robot(ax, x, y, pose.theta, colour, size=0.6)
+        draw_robot(ax, x, y, pose.theta, color, size=0.6)
     for x, y in crash:
         _draw_mark(ax, turned(CROSS, x, y), "none", "white", linewidth=5)
-        _draw_mark(ax, turned(CROSS, x, y), "none", colour, linewidth=2.5)
+        _draw_mark(ax, turned(CROSS, x, y), "none", color, linewidth=2.5)
 
 
 def _crash_site(task: Task, episode: Episode, poses: list[Pose]) -> list[tuple[float, float]]:

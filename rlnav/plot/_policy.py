@@ -111,7 +111,7 @@ def _draw_needles(ax: Axes, where: list[tuple[Pose, int]], large: bool, alpha: f
     shape = _large if large else _small
     stems, *tips = (_at(where, parts) for parts in zip(*(shape(pose.theta, a) for pose, a in where), strict=True))
     if large:
-        ax.add_patch(PathPatch(stems, edgecolor="white", linewidth=3.4, **look))  # to be seen on dark colours as well
+        ax.add_patch(PathPatch(stems, edgecolor="white", linewidth=3.4, **look))  # to be seen on dark colors as well
     for tip in tips:
         ax.add_patch(PathPatch(tip, edgecolor="white", linewidth=0.9, **look | {"facecolor": INK}))
     ax.add_patch(PathPatch(stems, edgecolor=INK, linewidth=1.6 if large else 1.1, **look))

@@ -13,9 +13,9 @@ from cycler import cycler
 from matplotlib.figure import Figure
 
 from .. import _check
-from ._look import COLOURS, INK, MUTED, RULE, SMALL, TEXT
+from ._look import COLORS, INK, MUTED, RULE, SMALL, TEXT
 
-DPI = 150  # of what is stored as a picture: colour bars, and very large maps
+DPI = 150  # of what is stored as a picture: color bars, and very large maps
 SALT = "rlnav"  # names inside an SVG are hashes: salted, they are the same in every run
 COORDINATES = re.compile(r' (?:d|x|y)="[^"]*"')
 BEYOND_HUNDREDTHS = re.compile(r"(\.\d\d)\d+")
@@ -29,7 +29,7 @@ SETTINGS: dict[str, Any] = {
     "axes.grid": True,
     "axes.labelcolor": INK,
     "axes.labelsize": TEXT,
-    "axes.prop_cycle": cycler(color=COLOURS),
+    "axes.prop_cycle": cycler(color=COLORS),
     "axes.spines.right": False,
     "axes.spines.top": False,
     "axes.titlesize": TEXT,

@@ -43,9 +43,9 @@ def table(
     rows : sequence of int, optional
         Which rows to show; by default those of the first eight start poses.
     vmin, vmax : float, optional
-        Ends of the colour scale, as in `values`.
+        Ends of the color scale, as in `values`.
     signed : bool
-        Use the colours for positive and negative numbers, with white at zero.
+        Use the colors for positive and negative numbers, with white at zero.
 
     Returns
     -------
@@ -68,11 +68,11 @@ def table(
     picked = _pick(task, len(Q), rows)
     names = (_names_of_poses if len(Q) == task.crashed + 1 else _names_of_features)(task, picked)
     scale = Normalize(*limits(Q[picked], vmin, vmax, signed))
-    colours = ScalarMappable(scale, DIVERGING if signed else SEQUENTIAL).to_rgba(Q[picked])
+    colors = ScalarMappable(scale, DIVERGING if signed else SEQUENTIAL).to_rgba(Q[picked])
     words = 0.3 + 0.08 * max(map(len, names))  # inches
     ax = axes(ax, len(task.robot.steering) * WIDE + words, len(picked) * HIGH + 1.0)
     for i, z in enumerate(picked):
-        _draw_row(ax, i, Q[z], colours[i])
+        _draw_row(ax, i, Q[z], colors[i])
     _draw_frame(ax, task.robot.steering, names)
     return ax
 
@@ -107,10 +107,10 @@ def _names_of_features(task: Task, picked: list[int]) -> list[str]:
     ]
 
 
-def _draw_row(ax: Axes, i: int, row: NDArray[np.float64], colours: NDArray) -> None:
-    for a, (q, colour) in enumerate(zip(row, colours, strict=True)):
-        ink, best = readable_on(colour), q >= row.max() - TIE
-        ax.add_patch(Rectangle((a - 0.48, i - 0.46), 0.96, 0.92, facecolor=colour, edgecolor="none"))
+def _draw_row(ax: Axes, i: int, row: NDArray[np.float64], colors: NDArray) -> None:
+    for a, (q, color) in enumerate(zip(row, colors, strict=True)):
+        ink, best = readable_on(color), q >= row.max() - TIE
+        ax.add_patch(Rectangle((a - 0.48, i - 0.46), 0.96, 0.92, facecolor=color, edgecolor="none"))
         look = {"ha": "center", "va": "center_baseline", "size": SMALL, "weight": "bold" if best else "normal"}
         ax.text(a, i, minus(f"{q:.2f}"), color=ink, **look)
         if best:

@@ -40,19 +40,19 @@ def values(
     ax : matplotlib.axes.Axes, optional
         Where to draw; new axes by default.
     heading : int, optional
-        Show only this heading, in degrees: one colour a cell.
+        Show only this heading, in degrees: one color a cell.
     numbers : bool, optional
         Write the values into the cells; by default if one heading is shown and the map is at most ten cells wide.
     vmin, vmax : float, optional
-        Ends of the colour scale.  By default they hold all values but those far below the others (by more than three
-        quartile distances), such as those of a robot that can only crash: these are black, and the colour bar has an
+        Ends of the color scale.  By default they hold all values but those far below the others (by more than three
+        quartile distances), such as those of a robot that can only crash: these are black, and the color bar has an
         arrow for them.
     signed : bool
-        Use the colours for positive and negative numbers, with white at zero.
+        Use the colors for positive and negative numbers, with white at zero.
     label : str
-        What the numbers are, for the colour bar.
+        What the numbers are, for the color bar.
     colorbar : bool
-        Draw the colour bar.
+        Draw the color bar.
 
     Returns
     -------
@@ -114,11 +114,11 @@ WEDGES = _wedges()
 
 
 def _write_numbers(ax: Axes, cells: PathCollection) -> None:
-    colours = cells.to_rgba(cells.get_array())
-    for (x, y), value, colour in zip(cells.get_offsets(), cells.get_array(), colours, strict=True):
+    colors = cells.to_rgba(cells.get_array())
+    for (x, y), value, color in zip(cells.get_offsets(), cells.get_array(), colors, strict=True):
         text = f"{value:.1f}" if abs(value) < 9.95 else f"{value:.0f}"
         ax.text(
-            x, y, minus(text), ha="center", va="center_baseline", size=SMALL - 1, color=readable_on(colour), zorder=4
+            x, y, minus(text), ha="center", va="center_baseline", size=SMALL - 1, color=readable_on(color), zorder=4
         )
 
 

@@ -1,4 +1,4 @@
-"""From the short forms that an author writes to labelled ipywidgets in tidy columns."""
+"""From the short forms that an author writes to labeled ipywidgets in tidy columns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Controls = dict[str, ipywidgets.ValueWidget]
 
 
 def make_controls(fn: Callable[..., Any], controls: Mapping[str, Any]) -> Controls:
-    """One labelled control for each argument of `fn`, at the argument's default where it has one."""
+    """One labeled control for each argument of `fn`, at the argument's default where it has one."""
     function("fn", fn, "of the values of the controls")
     if not isinstance(controls, Mapping) or not controls:
         fail("controls", "a dict with one entry for each argument of `fn`", show(controls), kind=TypeError)

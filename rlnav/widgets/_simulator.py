@@ -75,7 +75,7 @@ def _replay(task: Task, mdp: MDP, phi: NDArray, training: Training) -> Live:
 
 
 def _picture(task: Task, mdp: MDP, pi: NDArray, seed: int) -> tuple[Axes, str]:
-    """Draw a policy on the colour scale of the best one, so that one setting can be compared with another."""
+    """Draw a policy on the color scale of the best one, so that one setting can be compared with another."""
     best = solve(mdp).V
     ax = plot.values(task, evaluate_policy(mdp, pi), vmin=best.min(), vmax=best.max())
     plot.path(task, rollout(mdp, pi, rng=seed), ax)

@@ -73,7 +73,7 @@ def test_the_search_works_from_a_folder(browser, book):
         assert here.complaints == []
 
 
-def test_the_colour_mode_can_be_changed_and_is_remembered(browser, address):
+def test_the_color_mode_can_be_changed_and_is_remembered(browser, address):
     with browsing.visit(browser, f"{address}{CHAPTERS[0]}.html", scheme="dark") as here:
         modes = {here.page.evaluate("document.documentElement.dataset.theme")}
         for _ in range(2):
