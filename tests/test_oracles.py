@@ -193,7 +193,10 @@ def sarsa_target(row, a_next, epsilon):
 
 
 def mean_target(row, a_next, epsilon):
-    return (1 - epsilon) * max(row) + epsilon * sum(row) / len(row)
+    total = 0.0
+    for q in row:  # not sum(), which rounds less from Python 3.12 on
+        total += q
+    return (1 - epsilon) * max(row) + epsilon * total / len(row)
 
 
 PAIRS = {
