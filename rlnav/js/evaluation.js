@@ -1,0 +1,51 @@
+/**
+ * How good is a policy?  Exact answers, without sampling: no seeds, no error bars.  Mirrors rlnav/evaluation.py.
+ */
+import { instance, integer, MOST_STEPS } from "./check.js";
+import { MDP, underPolicy } from "./mdp.js";
+import { solve } from "./planning.js";
+import { evaluatePolicy } from "./prediction.js";
+
+/**
+ * Score a policy by following the distribution over states from step to step.
+ * The result is { success, crash, timeout, steps, value, optimal, gap }.  Whoever scores many policies of one MDP gives
+ * its optimal values, `best`, as found by `solve(mdp, { tol: 1e-10 }).V`.
+ */
+export function evaluate(mdp, pi, { maxSteps = 200, best = null } = {}) {
+  instance("mdp", mdp, MDP);
+  integer("maxSteps", maxSteps, 1, MOST_STEPS);
+  const value = meanOver(mdp.start, evaluatePolicy(mdp, pi));
+  const optimal = meanOver(mdp.start, best ?? solve(mdp, { tol: 1e-10 }).V);
+  const { where, steps } = follow(mdp, underPolicy(mdp, pi), maxSteps);
+  const share = (counts) => where.reduce((sum, p, s) => (counts(s) ? sum + p : sum), 0);
+  return {
+    success: share((s) => mdp.goal[s]),
+    crash: share((s) => mdp.terminal[s] && !mdp.goal[s]),
+    timeout: share((s) => !mdp.terminal[s]),
+    steps,
+    value,
+    optimal,
+    gap: optimal - value,
+  };
+}
+
+/** Return the distribution over states after `maxSteps`, and the mean number of steps that were taken. */
+function follow(mdp, { N, nextState, prob }, maxSteps) {
+  let where = new Float64Array(mdp.S);
+  mdp.start.forEach((s) => (where[s] += 1));
+  where.forEach((n, s) => (where[s] = n / mdp.start.length));
+  let steps = 0;
+  for (let t = 0; t < maxSteps; t++) {
+    const underWay = where.reduce((sum, p, s) => (mdp.terminal[s] ? sum : sum + p), 0);
+    if (underWay === 0) break;
+    steps += underWay;
+    const following = new Float64Array(mdp.S);
+    for (let i = 0; i < prob.length; i++) following[nextState[i]] += where[Math.floor(i / N)] * prob[i];
+    where = following;
+  }
+  return { where, steps };
+}
+
+function meanOver(states, V) {
+  return states.reduce((sum, s) => sum + V[s], 0) / states.length;
+}
