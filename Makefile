@@ -28,6 +28,7 @@ serve: book  ## build the book and show it at http://localhost:8000 (another por
 	@$(PY) -m http.server $(PORT) --bind 127.0.0.1 --directory _build/html
 
 lab: $(READY)  ## open the chapters in JupyterLab, where every control is live
+	@.venv/bin/jupyter trust book/*.ipynb
 	@$(PY) -m jupyterlab book
 
 test: lint  ## run every test: library, notebooks, and each page of the book in a real browser

@@ -488,3 +488,22 @@ def test_a_mistake_is_explained_and_leaves_no_empty_figure(mistake, kind, words)
         mistake()
     assert words in str(error.value)
     assert len(plt.get_fignums()) <= (words == "`ax` must be a Axes")
+
+
+def test_a_drive_that_slipped_is_drawn_on_the_map_of_a_robot_that_does_not():
+    task = rl.Task(rl.GridWorld.from_ascii(rl.maps.OBSTACLES))
+    slippery = rl.Task(task.world, rl.Robot(slip=0.5)).mdp()
+    pi = rl.solve(slippery).pi
+    drives = [rl.rollout(slippery, pi, rng=seed) for seed in range(40)]
+    assert any(drive.states[-1] == task.crashed for drive in drives)
+    for drive in drives:
+        ax = rl.plot.path(task, drive)
+        plt.close(ax.figure)
+
+
+def test_a_crash_that_the_task_does_not_have_is_an_error():
+    task = rl.Task(rl.GridWorld.from_ascii("....\n....\n>...\n....\n...G"))
+    in_the_open = task.index(rl.Pose(1, 2, 0))
+    elsewhere = rl.Episode(np.array([in_the_open, task.crashed]), np.array([2]), np.array([-10.0]), True)
+    with pytest.raises(ValueError, match="`episodes` must be drives in the world of the task"):
+        rl.plot.path(task, elsewhere)

@@ -28,8 +28,11 @@ def playwrights_own() -> str | None:
     """Return the path of the browser that `playwright install chromium` has brought, if it has."""
     from playwright.sync_api import sync_playwright
 
-    with sync_playwright() as playwright:
-        path = playwright.chromium.executable_path
+    try:
+        with sync_playwright() as playwright:
+            path = playwright.chromium.executable_path
+    except Exception:  # a bare system may lack what Playwright itself needs; a browser's packages bring it along
+        return None
     return path if Path(path).exists() else None
 
 
@@ -38,7 +41,8 @@ def bring() -> None:
     if os.geteuid() == 0 and shutil.which("apt-get"):
         environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
         subprocess.run(["apt-get", "update"], env=environment)
-        packages = ["chromium", "fonts-liberation"]  # without a font, every letter is an empty box
+        # Without a font every letter is an empty box; Playwright's own driver needs libatomic1.
+        packages = ["chromium", "fonts-liberation", "libatomic1"]
         install = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
         if subprocess.run(install, env=environment).returncode == 0:
             return

@@ -121,8 +121,11 @@ def _crash_site(task: Task, episode: Episode, poses: list[Pose]) -> list[tuple[f
     """Return where the robot hit something: on the edge of its last cell, towards the cell that it drove at."""
     if episode.states[-1] != task.crashed or not poses:
         return []
-    tried = [a for a, _ in task.robot.outcomes(int(episode.actions[-1]))]  # with slip, the first of them that crashes
-    hit = next(t for a in tried if (t := task.transition(poses[-1], a)).crash)
+    meant = task.robot.steering[episode.actions[-1]]
+    tried = sorted(task.robot.steering, key=lambda a: abs(a - meant))  # a slip ends beside what was meant
+    hit = next((t for a in tried if (t := task.transition(poses[-1], a)).crash), None)
+    if hit is None:
+        _check.fail("episodes", "drives in the world of the task", f"a crash at {poses[-1]}", "Was it another task's?")
     return [((hit.s.x + hit.s_next.x) / 2, (hit.s.y + hit.s_next.y) / 2)]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.ticker import MaxNLocator, NullLocator
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullLocator
 from numpy.typing import ArrayLike, NDArray
 
 from .. import _check
@@ -15,6 +15,7 @@ from ..planning import Solution
 from ._chart import SIZE, finish, next_line
 from ._look import MUTED, axes
 
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 STILL = "no change at all"
 
 
@@ -94,7 +95,11 @@ def _draw_promise(ax: Axes, change: NDArray[np.float64], gamma: float) -> None:
 
 
 def _promise_in_words(gamma: float) -> str:
-    return f"$\\gamma^{{k-1}}$ of the first, $\\gamma$ = {gamma:g}"
+    return f"γᵏ⁻¹ of the first, γ = {gamma:g}"
+
+
+def _power_of_ten(value: float, _: int) -> str:
+    return "10" + str(round(np.log10(value))).translate(SUPERSCRIPT)
 
 
 def _fit_decades(ax: Axes) -> None:
@@ -104,4 +109,5 @@ def _fit_decades(ax: Axes) -> None:
     ax.set_ylim(10 ** np.floor(np.log10(low)), 1.2 * high)
     ax.set_yscale("log")
     ax.yaxis.set_minor_locator(NullLocator())
+    ax.yaxis.set_major_formatter(FuncFormatter(_power_of_ten))  # plain text is drawn much faster than mathematics
     ax.xaxis.set_major_locator(MaxNLocator(7, integer=True, min_n_ticks=1))

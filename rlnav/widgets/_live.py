@@ -48,7 +48,7 @@ class Live(ipywidgets.VBox):
     controls : dict of ipywidgets
         ``live.controls["gamma"].value = 0.9`` moves a control from Python.
     error : Exception or None
-        What `fn` raised in the last call. The last good result stays on the page, with the message below it.
+        What `fn` raised in the last call. The last good result stays on the page, with the message above it.
 
     Raises
     ------
@@ -102,7 +102,7 @@ class Live(ipywidgets.VBox):
             raise  # so that in a notebook under test the cell that moved the control fails
         finally:
             message = _message(self.error, self.values) if self.error else ""
-            self._area.value = _framed(self._shown, self._shown.sentence) + message
+            self._area.value = message + _framed(self._shown, self._shown.sentence)
 
     def __repr__(self) -> str:
         lines = [f"Live({name_of(self._fn)})"]
@@ -160,10 +160,10 @@ def _framed(shown: _Shown, *caption: str) -> str:
 
 
 def _message(error: Exception, values: Mapping[str, Any]) -> str:
-    """Say what went wrong, below the last good result."""
+    """Say what went wrong, above the last good result."""
     what = escape(f"{type(error).__name__}: {error}")
     where = escape(listed(values))
     return (
         '<p role="alert" style="margin: 0.5em 0; padding: 0.25em 0.75em; border-left: 4px solid #d55e00; '
-        f'line-height: 1.5"><strong>{what}</strong><br>at {where}. Above is the last result that worked.</p>'
+        f'line-height: 1.5"><strong>{what}</strong><br>at {where}. Below is the last result that worked.</p>'
     )
