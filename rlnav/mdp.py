@@ -164,7 +164,7 @@ def greedy(Q: ArrayLike) -> NDArray[np.int64]:
     if Q.shape[1] == 0:
         _check.fail("Q", "a table with at least one action", f"shape {Q.shape}")
     best = np.take_along_axis(Q, Q.argmax(axis=1)[:, None], axis=1)  # in short rows argmax is faster than max
-    return (best - Q <= TIE).argmax(axis=1)
+    return np.greater_equal(Q, best - TIE).argmax(axis=1)
 
 
 def epsilon_greedy(Q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
