@@ -140,6 +140,35 @@ class Shaped:
 
 
 @dataclass(frozen=True)
+class Nearness:
+    """Hold a potential for `Shaped` that grows towards the goal: Phi(s) = -weight times the straight distance.
+
+    Parameters
+    ----------
+    goal : (int, int)
+    weight : float
+        Potential that one cell is worth.
+
+    Examples
+    --------
+    >>> import rlnav as rl
+    >>> rl.designs.Nearness(goal=(3, 4), weight=2)(rl.Pose(0, 0, 0))
+    -10.0
+    """
+
+    goal: Cell
+    weight: float = 1.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "goal", _check.cell("goal", self.goal))
+        object.__setattr__(self, "weight", _check.number("weight", self.weight))
+
+    def __call__(self, pose: Pose) -> float:
+        """Return the potential of a pose."""
+        return -self.weight * distance(pose, self.goal)
+
+
+@dataclass(frozen=True)
 class Total:
     """Pay the sum of several rewards.
 
@@ -182,6 +211,8 @@ class Feature:
         How many values it can take.
     of : function of(pose, world, robot) -> int
         The value at a pose, in 0 ... levels - 1.
+    made_by : tuple, optional
+        For the features of this module: the function that made it and its argument, as ("goal_bearing", 8).
 
     Examples
     --------
@@ -194,6 +225,7 @@ class Feature:
     name: str
     levels: int | Callable[[GridWorld, Robot], int]
     of: Callable[[Pose, GridWorld, Robot], int]
+    made_by: tuple = ()
 
     def __post_init__(self) -> None:
         _check.instance("name", self.name, str)
@@ -240,12 +272,14 @@ def _crashes(pose: Pose, world: GridWorld, robot: Robot) -> int:
 
 def cell() -> Feature:
     """Perceive the absolute cell, without the heading."""
-    return Feature("cell", lambda world, _: world.width * world.height, lambda p, world, _: p.y * world.width + p.x)
+    return Feature(
+        "cell", lambda world, _: world.width * world.height, lambda p, world, _: p.y * world.width + p.x, ("cell",)
+    )
 
 
 def heading() -> Feature:
     """Perceive the heading, eight levels."""
-    return Feature("heading", 8, lambda pose, world, robot: pose.theta // 45)
+    return Feature("heading", 8, lambda pose, world, robot: pose.theta // 45, ("heading",))
 
 
 def goal_direction() -> Feature:
@@ -254,13 +288,13 @@ def goal_direction() -> Feature:
     def of(pose: Pose, world: GridWorld, robot: Robot) -> int:
         return 3 * (_sign(world.goal[1] - pose.y) + 1) + _sign(world.goal[0] - pose.x) + 1
 
-    return Feature("goal direction", 9, of)
+    return Feature("goal direction", 9, of, ("goal_direction",))
 
 
 def goal_bearing(sectors: int = 8) -> Feature:
     """Perceive where the goal is as seen from the robot, in equal sectors around it; sector 0 is straight ahead."""
     n = _check.integer("sectors", sectors, 2, 360)
-    return Feature("goal bearing", n, lambda pose, world, robot: _bearing(pose, world.goal, n))
+    return Feature("goal bearing", n, lambda p, world, _: _bearing(p, world.goal, n), ("goal_bearing", n))
 
 
 def goal_distance(bins: tuple[float, ...] = (1.5, 3.0, 6.0)) -> Feature:
@@ -268,14 +302,15 @@ def goal_distance(bins: tuple[float, ...] = (1.5, 3.0, 6.0)) -> Feature:
     limits = tuple(_check.number("bins", b, 0) for b in _check.items("bins", bins, "ascending distances"))
     if not limits or any(b <= a for a, b in pairwise(limits)):
         _check.fail("bins", "ascending distances", _check.show(bins))
+    made_by = ("goal_distance", limits)
     return Feature(
-        "goal distance", len(limits) + 1, lambda p, world, _: sum(distance(p, world.goal) > b for b in limits)
+        "goal distance", len(limits) + 1, lambda p, world, _: sum(distance(p, world.goal) > b for b in limits), made_by
     )
 
 
 def moves_ahead() -> Feature:
     """Perceive which of the moves would crash: one bit an action."""
-    return Feature("moves ahead", lambda _, robot: 2 ** len(robot.steering), _crashes)
+    return Feature("moves ahead", lambda _, robot: 2 ** len(robot.steering), _crashes, ("moves_ahead",))
 
 
 def table_rows(features: tuple[Feature, ...], world: GridWorld, robot: Robot) -> int:

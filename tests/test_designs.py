@@ -55,6 +55,14 @@ def test_paying_only_for_progress_makes_circling_pay_for_ever():
     assert rl.evaluate(hacked.mdp(), best[hacked].pi).timeout == pytest.approx(1)
 
 
+def test_nearness_is_minus_the_distance():
+    potential = designs.Nearness(goal=(3, 4), weight=0.5)
+    assert potential(rl.Pose(0, 0, 90)) == -2.5
+    assert potential(rl.Pose(3, 4, 90)) == 0
+    with pytest.raises(TypeError, match="`goal` must be a cell"):
+        designs.Nearness(goal=5)
+
+
 def test_shaping_adds_the_discounted_gain_in_potential():
     reward = designs.Shaped(designs.Payment(), lambda pose: float(pose.x), gamma=0.5)
     assert reward(transition((4, 0, 0), 0, (5, 0, 0))) == pytest.approx(-0.1 + 0.5 * 5 - 4)

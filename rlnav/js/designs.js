@@ -1,7 +1,7 @@
 /**
  * Designs: what the robot is paid for (rewards) and what it perceives (state features).
  * Mirrors rlnav/designs.py; its classes Payment, Progress, Shaped (eq-shaping) and Total are functions here that return
- * a reward, a function of a Transition.
+ * a reward, a function of a Transition, and Nearness one that returns a potential, a function of a Pose.
  */
 import { callable, called, cellOf, fail, instance, integer, items, number, show } from "./check.js";
 import { Pose } from "./robot.js";
@@ -45,6 +45,13 @@ export function shaped(reward, potential, gamma) {
   callable("potential", potential, "potential(pose)");
   number("gamma", gamma, 0, 1);
   return (t) => reward(t) + gamma * (t.crash || t.goal ? 0 : potential(t.sNext)) - potential(t.s);
+}
+
+/** A potential that grows towards the goal: minus the straight distance, times the weight. */
+export function nearness(goal, weight = 1) {
+  const there = cellOf("goal", goal);
+  number("weight", weight);
+  return (pose) => -weight * distance(pose, there);
 }
 
 /** Pay the sum of several rewards. */
