@@ -26,14 +26,12 @@ export function quote(text) {
 /** Quote a value as an error message does: short and on one line. */
 export function show(value) {
   if (ArrayBuffer.isView(value)) return `${value.constructor.name} of length ${value.length}`;
-  if (typeof value === "string") return quote(value);
-  let text = String(value);
-  if (text === "[object Object]" || Array.isArray(value)) {
-    try {
-      text = JSON.stringify(value);
-    } catch {
-      return "something that cannot be shown";
-    }
+  let text = "something that cannot be shown";
+  try {
+    text = typeof value === "string" ? quote(value) : String(value);
+    if (text === "[object Object]" || Array.isArray(value)) text = JSON.stringify(value);
+  } catch {
+    // such as one that holds itself, or thousands of others one in the other
   }
   return text.length <= 60 ? text : `${text.slice(0, 57)}...`;
 }

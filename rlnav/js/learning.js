@@ -17,15 +17,18 @@ const MOST_ENTRIES = 50_000_000; // of a table: 400 MB
 const CLOSE = 1024; // steps between two checkpoints, at least
 const KEPT = 4; // checkpoints at each spacing
 const NOWHERE = { s: -1, a: -1, r: NaN, gamma: NaN, sNext: -1, aNext: -1, z: -1, zNext: -1, coin: NaN, table: 0 };
-const NO_STEP = Object.freeze({ ...NOWHERE, target: NaN, tdError: NaN, before: NaN, after: NaN });
+const NOTHING = { next: NaN, target: NaN, tdError: NaN, before: NaN, after: NaN };
+const NO_STEP = Object.freeze({ ...NOWHERE, ...NOTHING });
 
 /**
  * Learn step by step, as the page asks for it.
  *
  * `Q` is the table [Z * A], `visits` counts how often each entry was tried, and `last` describes the last step:
- * s, a, r, sNext, aNext, the rows z and zNext, gamma (0 at an end), target, tdError, and the entry before and after.
- * `returns`, `steps` and `stops` hold the return, the length and the last state of each episode that is over; there are
- * `episode` of them.  The robot stays at `s`, where an episode ended, until the next step begins another.
+ * s, a, r, sNext, aNext, the rows z and zNext, gamma (0 at an end), the value `next` of what follows, target, tdError,
+ * and the entry before and after. `returns`, `steps` and `stops` hold the return, the length and the last state of each
+ * episode that is over, `tdErrors` the mean size of its TD errors and `coverage` how many entries had been visited by
+ * then; there are `episode` of them.  The robot stays at `s`, where an episode ended, until the next step begins
+ * another; `way` holds the states of the episode so far.
  */
 export class Learner {
   #checkpoints = [];
@@ -50,8 +53,11 @@ export class Learner {
     this.returns = new Float64Array(episodes);
     this.steps = new Int32Array(episodes);
     this.stops = new Int32Array(episodes);
+    this.tdErrors = new Float64Array(episodes);
+    this.coverage = new Uint32Array(episodes);
     const room = algorithm === monteCarlo ? this.maxSteps : 0;
     this.path = { visits: new Uint32Array(room), rewards: new Float64Array(room) };
+    this.way = new Int32Array(this.maxSteps + 1); // states of this episode: way[0] ... way[t]
     this.last = { ...NO_STEP };
     this.#begin();
     this.#keep();
@@ -86,6 +92,7 @@ export class Learner {
     this.algorithm(this, last);
     if (this.visits[last.z * A + last.a]++ === 0) this.covered += 1;
     this.s = last.sNext;
+    this.way[this.t] = this.s;
     this.a = last.aNext;
     if (this.over) this.#record();
     this.updates += 1;
@@ -124,6 +131,19 @@ export class Learner {
     this.seek(Math.max(0, this.updates - integer("k", k, 0)));
   }
 
+  /** Allow more episodes, learned with the step size and exploration of the last one that was allowed before. */
+  extend(episodes) {
+    integer("episodes", episodes, this.episodes, MOST_EPISODES);
+    const longer = (array, rest) => {
+      const grown = new array.constructor(episodes).fill(rest);
+      grown.set(array);
+      return grown;
+    };
+    for (const name of ["alpha", "epsilon"]) this[name] = longer(this[name], this[name].at(-1));
+    for (const name of ["returns", "steps", "stops", "tdErrors", "coverage"]) this[name] = longer(this[name], 0);
+    this.episodes = episodes;
+  }
+
   /** Return what was learned in the episodes that are over, with the names that Python uses. */
   training() {
     const { Q, A, mdp, episode } = this;
@@ -145,8 +165,10 @@ export class Learner {
     this.s = drawStart(mdp, rng.random());
     this.a = drawAction(Q, phi[this.s], A, this.epsilonNow, rng.random(), rng.random());
     this.t = 0;
+    this.way[0] = this.s;
     this.G = 0; // the return so far
     this.discount = 1;
+    this.surprise = 0; // the sizes of the TD errors so far, summed up
     this.over = false;
   }
 
@@ -154,6 +176,8 @@ export class Learner {
     this.returns[this.episode] = this.G;
     this.steps[this.episode] = this.t;
     this.stops[this.episode] = this.s;
+    this.tdErrors[this.episode] = this.surprise / this.t;
+    this.coverage[this.episode] = this.covered;
     this.episode += 1;
   }
 
@@ -164,21 +188,23 @@ export class Learner {
 
   /** Remember this moment, and forget old ones: the older, the wider their spacing, so that few are kept. */
   #keep() {
-    const { updates, episode, covered, s, a, t, G, discount, over, alphaNow, epsilonNow } = this;
+    const { updates, episode, covered, s, a, t, G, discount, surprise, over, alphaNow, epsilonNow } = this;
     const path = { visits: this.path.visits.slice(0, t), rewards: this.path.rewards.slice(0, t) };
-    const values = { updates, episode, covered, s, a, t, G, discount, over, alphaNow, epsilonNow };
+    const way = this.way.slice(0, t + 1);
+    const values = { updates, episode, covered, s, a, t, G, discount, surprise, over, alphaNow, epsilonNow };
     const arrays = [this.rng.state, this.Q, this.visits, ...this.tables].map((array) => array.slice());
-    this.#checkpoints.push({ updates, values, arrays, path });
+    this.#checkpoints.push({ updates, values, arrays, path, way });
     const age = (kept) => (updates - kept.updates) / this.#spacing;
     const roundness = (kept) => largestPowerOfTwo(kept.updates / this.#spacing);
     this.#checkpoints = this.#checkpoints.filter((kept) => age(kept) <= KEPT * roundness(kept));
   }
 
-  #restore({ values, arrays, path }) {
+  #restore({ values, arrays, path, way }) {
     Object.assign(this, values);
     [this.rng.state, this.Q, this.visits, ...this.tables].forEach((array, i) => array.set(arrays[i]));
     this.path.visits.set(path.visits);
     this.path.rewards.set(path.rewards);
+    this.way.set(way);
   }
 }
 

@@ -6,6 +6,7 @@
 import { fail, instance, integer, number } from "./check.js";
 import { actionValues, greedy, MDP } from "./mdp.js";
 import { largest } from "./sampling.js";
+import { finish } from "./slices.js";
 
 const EVALUATIONS = 10; // policy sweeps of `solve` between two greedy ones, at most
 const ENOUGH = 0.1; // ... and they stop early once they change values by less than this share of the greedy sweep's
@@ -35,7 +36,12 @@ export function bestValues(mdp, V) {
  * Find v* and pi* by modified policy iteration with Gauss-Seidel sweeps of alternating direction: a greedy sweep is
  * followed by a few cheap sweeps of the policy that it found.  `residuals` belong to greedy sweeps.
  */
-export function solve(mdp, { tol = 1e-8, maxSweeps = null } = {}) {
+export function solve(mdp, options) {
+  return finish(solving(mdp, options));
+}
+
+/** `solve`, a sweep at a time; yields the values as they stand. */
+export function* solving(mdp, { tol = 1e-8, maxSweeps = null } = {}) {
   const limit = stoppingRule(mdp, tol, maxSweeps);
   const r = meanRewards(mdp);
   const V = new Float64Array(mdp.S);
@@ -46,6 +52,7 @@ export function solve(mdp, { tol = 1e-8, maxSweeps = null } = {}) {
     residuals.push(greedySweep(mdp, r, pi, V, forward));
     forward = !forward;
     if (residuals.at(-1) <= tol) break;
+    yield V;
     for (let i = 0; i < EVALUATIONS; i++) {
       const change = policySweep(mdp, r, pi, V, forward);
       forward = !forward;

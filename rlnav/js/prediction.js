@@ -3,6 +3,7 @@
  */
 import { fail, instance } from "./check.js";
 import { MDP, underPolicy } from "./mdp.js";
+import { finish } from "./slices.js";
 
 const EXACT = 1e-10; // relative error
 const SLOW = 0.999; // beyond this gamma ...
@@ -11,16 +12,22 @@ const MOST_EXPECTATIONS = 1_000_000; // sweeps
 
 /** Find the values of a policy, v = r_pi + gamma P_pi v; `pi` is [S] actions or [S * A] probabilities. */
 export function evaluatePolicy(mdp, pi) {
+  return finish(evaluatingPolicy(mdp, pi));
+}
+
+/** `evaluatePolicy`, a sweep at a time. */
+export function* evaluatingPolicy(mdp, pi) {
   instance("mdp", mdp, MDP);
   const chain = underPolicy(mdp, pi);
   if (mdp.gamma === 1) checkThatItEnds(mdp, chain);
-  if (mdp.gamma > SLOW && mdp.S <= SMALL) return eliminate(mdp, chain);
+  if (mdp.gamma > SLOW && mdp.S <= SMALL) return yield* eliminate(mdp, chain);
   let V = new Float64Array(mdp.S);
   let following = new Float64Array(mdp.S);
   for (let sweep = 0; sweep < MOST_EXPECTATIONS; sweep++) {
     const { change, size } = expectationSweep(chain, mdp.gamma, V, following);
     [V, following] = [following, V];
     if (change * mdp.gamma <= (1 - Math.min(mdp.gamma, SLOW)) * EXACT * size) return V;
+    yield;
   }
   return fail("pi", "a policy whose episodes end sooner", `values that move after ${MOST_EXPECTATIONS} sweeps`);
 }
@@ -44,7 +51,7 @@ function expectationSweep({ N, nextState, prob, r }, gamma, V, following) {
  * No pivots are looked for: the diagonal is at least as large as the rest of its row.  A robot moves to near cells,
  * which are near in the order of states, so a row has few numbers left and right of the diagonal.
  */
-function eliminate(mdp, { N, nextState, prob, r }) {
+function* eliminate(mdp, { N, nextState, prob, r }) {
   const paid = reaching(r.map((x) => (x !== 0 ? 1 : 0)), N, nextState, prob);
   const states = Array.from(paid.keys()).filter((s) => paid[s]);
   const row = new Int32Array(mdp.S).fill(-1);
@@ -70,6 +77,7 @@ function eliminate(mdp, { N, nextState, prob, r }) {
       for (let d = 0; d <= band; d++) M[below * width + i + d - below + band] -= factor * M[i * width + d + band];
       v[below] -= factor * v[i];
     }
+    yield;
   }
   for (let i = v.length - 1; i >= 0; i--) {
     for (let d = 1; d <= band && i + d < v.length; d++) v[i] -= M[i * width + d + band] * v[i + d];

@@ -45,7 +45,7 @@ export function returns(rewards, gamma) {
 }
 
 /** The action of a policy in state s, where `which` decides between probabilities. */
-function drawFrom(policy, s, A, which) {
+export function drawFrom(policy, s, A, which) {
   if (policy instanceof Int32Array) return policy[s];
   let sum = 0;
   let likely = 0; // the last action with a chance, should the sum end below `which` by rounding

@@ -27,7 +27,7 @@ LOAD = """async modules => {
     const rewards = [rl.payment(payment)];
     if (progress) rewards.push(rl.progress(world.goal, progress));
     const reward = rewards.length > 1 ? rl.total(...rewards) : rewards[0];
-    return shaping ? rl.shaped(reward, pose => -rl.distance(pose, world.goal), gamma) : reward;
+    return shaping ? rl.shaped(reward, rl.nearness(world.goal), gamma) : reward;
   };
   window.taskOf = spec => {
     const world = worldOf(spec);

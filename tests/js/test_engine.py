@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 import rlnav as rl
+from explorables import minified
+from rlnav.widgets._bundle import join
 
 ENGINE = Path(__file__).parents[2] / "rlnav" / "js"
 SOURCES = {path.name: path.read_text(encoding="utf-8") for path in sorted(ENGINE.glob("*.js"))}
@@ -19,9 +21,12 @@ LEARNERS = """
   // everything that a page could show, to the last bit
   const all = learner => JSON.stringify([
     [learner.Q, learner.visits, learner.rng.state, ...learner.tables].map(bits),
-    [learner.returns, learner.steps, learner.stops].map(array => bits(array.subarray(0, learner.episode))),
+    [learner.returns, learner.steps, learner.stops, learner.tdErrors, learner.coverage]
+      .map(array => bits(array.subarray(0, learner.episode))),
+    bits(learner.way.subarray(0, learner.t + 1)),
     [learner.updates, learner.episode, learner.covered, learner.s, learner.a, learner.t, learner.over, learner.done],
-    [learner.G, learner.discount, learner.alphaNow, learner.epsilonNow].map(x => bits(Float64Array.of(x))),
+    [learner.G, learner.discount, learner.surprise, learner.alphaNow, learner.epsilonNow]
+      .map(x => bits(Float64Array.of(x))),
     Object.entries(learner.last).map(([name, x]) => [name, bits(Float64Array.of(x))]),
   ]);
 """
@@ -252,36 +257,25 @@ def test_every_module_imports_in_one_plain_form_only():
         assert set(IMPORT.findall(text)) <= SOURCES.keys()
 
 
-def joined():
-    """All modules as one, each after those that it imports."""
-    order = []
-
-    def add(name):
-        for needed in IMPORT.findall(SOURCES[name]):
-            if needed not in order:
-                add(needed)
-        if name not in order:
-            order.append(name)
-
-    for name in SOURCES:
-        add(name)
-    return "".join(IMPORT.sub("", SOURCES[name]) for name in order)
+SAME_BITS = """async text => {
+  const one = (await import(URL.createObjectURL(new Blob([text], {type: 'text/javascript'})))).default;
+  const names = Object.keys(rl).sort().join();
+  const run = (rl, name) => {
+    const task = new rl.Task(rl.GridWorld.fromAscii(rl.OBSTACLES), {robot: new rl.Robot({slip: 0.1})});
+    const {Q, returns} = rl.train(task.mdp(), null, rl[name], {episodes: 300, epsilon: 0.3, rng: 1});
+    return [Q, returns, rl.solve(task.mdp()).V].map(bits).join();
+  };
+  const algorithms = ['qLearning', 'sarsa', 'expectedSarsa', 'doubleQLearning', 'monteCarlo'];
+  return names === Object.keys(one).sort().join() && algorithms.every(name => run(one, name) === run(rl, name));
+}"""
 
 
-def test_the_modules_can_be_joined_into_one(engine):
-    names = re.findall(r"^(?:export )?(?:const|let|class|function) (\w+)", joined(), re.MULTILINE)
-    assert sorted(names) == sorted(set(names))
-    equal = engine(
-        """async text => {
-          const url = URL.createObjectURL(new Blob([text], {type: 'text/javascript'}));
-          const one = await import(url);
-          const run = ({Task, GridWorld, train, sarsa}) =>
-            bits(train(new Task(GridWorld.fromAscii('S.\\n.G')).mdp(), null, sarsa, {episodes: 50, rng: 1}).Q);
-          return run(one) === run(rl) && Object.keys(one).sort().join() === Object.keys(rl).sort().join();
-        }""",
-        joined(),
-    )
-    assert equal is True
+@pytest.mark.parametrize("squeezed", [str, minified], ids=["joined", "minified"])
+def test_the_modules_give_the_same_bits_as_one(engine, squeezed):
+    code, exports = join(*SOURCES)
+    assert exports.keys() == SOURCES.keys()
+    names = ", ".join(f"{name}: {place}" for places in exports.values() for name, place in places.items())
+    assert engine(SAME_BITS, squeezed(f"{code}export default {{ {names} }};")) is True
 
 
 def test_every_module_says_which_part_of_the_library_it_mirrors():

@@ -398,7 +398,7 @@ def test_episodes_of_a_policy_are_the_same(engine, floats, designs):
     [
         (TRAINING, "rng.js", "(s[3] << 8)", "(s[3] << 7)"),
         (TRAINING, "rng.js", "a2 * M3", "a2 * M2"),
-        (TRAINING, "algorithms.js", "last.r + last.gamma * largest", "last.r - last.gamma * largest"),
+        (TRAINING, "algorithms.js", "last.next = largest", "last.next = -largest"),
         (TRAINING, "algorithms.js", "last.coin < 0.5", "last.coin < 0.4"),
         (TRAINING, "algorithms.js", "let i = t - 1; i >= 0", "let i = t - 1; i > 0"),
         (TRAINING, "sampling.js", "(1 - epsilon) * largest(Q, z, A) + ", "(1 - epsilon) * largest(Q, z, A) - "),
