@@ -19,7 +19,7 @@ help:  ## show this list
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-9s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 
 book: $(READY)  ## build the book into _build/html
-	@$(PY) tools/vendor.py mathjax
+	@$(PY) tools/vendor.py mathjax esbuild
 	@echo "Building the book"
 	@$(BUILD)
 
@@ -34,7 +34,7 @@ lab: $(READY)  ## open the chapters in JupyterLab, where every control is live
 test: lint  ## run every test: library, notebooks, and each page of the book in a real browser
 	@$(PY) tools/vendor.py
 	@$(PY) tools/browser.py
-	$(PY) -m pytest
+	$(PY) -m pytest -n auto --dist loadfile
 	$(PY) -m pytest -p tests.notebooks.strict book
 	$(PY) -m pytest --nbval book
 

@@ -120,12 +120,13 @@ def test_the_library_runs_without_numba_and_without_figures():
     assert python(without + LEARN_A_LITTLE).splitlines()[1:] == python(LEARN_A_LITTLE).splitlines()[1:]
 
 
-def test_what_is_missing_is_named_with_the_way_to_get_it():
+@pytest.mark.parametrize(("module", "package"), [("env", "gymnasium"), ("widgets", "anywidget")])
+def test_what_is_missing_is_named_with_the_way_to_get_it(module, package):
     program = (
-        "import sys; sys.modules['gymnasium'] = None\nimport rlnav as rl\n"
-        "try: rl.env\nexcept ImportError as error: print(error)"
+        f"import sys; sys.modules['{package}'] = None\nimport rlnav as rl\n"
+        f"try: rl.{module}\nexcept ImportError as error: print(error)"
     )
-    assert "pip install 'rlnav[env]'" in python(program)
+    assert f"pip install 'rlnav[{module}]'" in python(program)
 
 
 # ---------------------------------------------------------------- size

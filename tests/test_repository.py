@@ -21,8 +21,8 @@ TALK_OF_MAKE = [*ROOT.glob("*.md"), *ROOT.glob("book/*.md"), *ROOT.glob(".github
 def pins() -> dict[str, str]:
     """Return the exact versions that requirements.txt names."""
     lines = (line.split("#")[0].strip() for line in (ROOT / "requirements.txt").read_text().splitlines())
-    pairs = (line.split("==") for line in lines if line and not line.startswith("-"))
-    return {canonicalize_name(name): version for name, version in pairs}
+    pinned = (Requirement(line) for line in lines if line and not line.startswith("-"))
+    return {canonicalize_name(r.name): str(r.specifier).removeprefix("==") for r in pinned}
 
 
 def needed() -> list[Requirement]:

@@ -32,6 +32,7 @@ def read(path: Path) -> NotebookNode:
 
 def canonical(notebook: NotebookNode) -> str:
     """Write a notebook as text that is the same whenever its cells and outputs are the same."""
+    notebook = without_programs(notebook)
     models = widget_models(notebook)
     new_ids = number_widgets(models, shown_widgets(notebook))
     tidy = rename_widgets(notebook, new_ids)
@@ -56,6 +57,26 @@ def shown_widgets(notebook: NotebookNode) -> list[str]:
     """Return the model ids that the outputs show, in the order of the page."""
     outputs = (output for cell in notebook.cells for output in cell.get("outputs", ()))
     return [output.data[WIDGET_VIEW]["model_id"] for output in outputs if WIDGET_VIEW in output.get("data", {})]
+
+
+def without_programs(notebook: NotebookNode) -> NotebookNode:
+    """Copy a notebook in which widgets that bring a program along are shown by their HTML only.
+
+    It holds all of their settings. Their views would need the program, which is no part of a notebook; without it
+    JupyterLab would show an error where it can show their still picture.
+    """
+    notebook, models = nbformat.from_dict(json.loads(json.dumps(notebook))), widget_models(notebook)
+    for cell in notebook.cells:
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            if "text/html" in data and WIDGET_VIEW in data and is_program(models.get(data[WIDGET_VIEW]["model_id"])):
+                del data[WIDGET_VIEW]
+    return notebook
+
+
+def is_program(model: dict[str, Any] | None) -> bool:
+    """Tell whether the state of a widget brings the program of an anywidget along."""
+    return model is not None and "_esm" in model["state"]
 
 
 def number_widgets(models: dict[str, Any], shown: list[str]) -> dict[str, str]:

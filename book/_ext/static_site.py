@@ -26,9 +26,9 @@ FRONT_DOOR = """<!DOCTYPE html>
 VENDOR = Path(__file__).resolve().parents[2] / "tools" / "vendor.py"
 
 
-def bring_mathjax(app: Sphinx, config: Config) -> None:
-    """Fetch MathJax if it is not there yet, so that a plain `jupyter-book build .` gives the same pages as make."""
-    subprocess.run([sys.executable, VENDOR, "mathjax"], check=True)
+def bring_files(app: Sphinx, config: Config) -> None:
+    """Fetch MathJax and the minifier if they are not there yet, so that a plain build is the same as that of make."""
+    subprocess.run([sys.executable, VENDOR, "mathjax", "esbuild"], check=True)
 
 
 def drop_widget_state(app: Sphinx, doctree: object) -> None:
@@ -75,7 +75,7 @@ def write_front_door(app: Sphinx, error: Exception | None) -> None:
 
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register with Sphinx."""
-    app.connect("config-inited", bring_mathjax)
+    app.connect("config-inited", bring_files)
     app.connect("doctree-read", drop_widget_state)
     app.connect("doctree-read", drop_empty_headers)
     app.connect("builder-inited", complete_singlehtml)

@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from html import escape
 from typing import Any
-from urllib.parse import quote
 
 import ipywidgets
-from matplotlib import pyplot as plt
-from matplotlib.figure import Figure
 
 from .._check import fail, show
-from ..plot import to_svg
 from ._controls import describe, listed, make_controls, name_of, tidy
-
-_PLAIN_IN_URL = " !$&'()*+,-./:;=?@[]^_`{|}~"  # left as they are: shorter than base64, and text compresses well
-
-
-@dataclass(frozen=True)
-class _Shown:
-    """What one call of the function put on the page: HTML, the sentence below it, and both in words for a test."""
-
-    body: str
-    sentence: str
-    words: str
+from ._still import Still, framed, no_open_figures, render
 
 
 class Live(ipywidgets.VBox):
@@ -72,7 +56,7 @@ class Live(ipywidgets.VBox):
         self._fn, self._alt = fn, alt
         _check_alt(alt, self.values)
         self._shown = self._call()
-        self._area = ipywidgets.HTML(_framed(self._shown, self._shown.sentence))
+        self._area = ipywidgets.HTML(framed(self._shown, self._shown.sentence))
         super().__init__([tidy(self.controls), self._area])
         for control in self.controls.values():
             control.observe(self._redraw, names="value")
@@ -83,14 +67,10 @@ class Live(ipywidgets.VBox):
         values = {name: control.value for name, control in self.controls.items()}
         return {name: round(value, 12) if isinstance(value, float) else value for name, value in values.items()}
 
-    def _call(self) -> _Shown:
+    def _call(self) -> Still:
         """Call the function and draw what it returns. Every figure that it opened is closed again."""
-        already_open = set(plt.get_fignums())
-        try:
-            return _render(self._fn(**self.values), self._alt.format(**self.values))
-        finally:
-            for number in set(plt.get_fignums()) - already_open:
-                plt.close(number)
+        with no_open_figures():
+            return render(self._fn(**self.values), self._alt.format(**self.values))
 
     def _redraw(self, change: object) -> None:
         try:
@@ -102,7 +82,7 @@ class Live(ipywidgets.VBox):
             raise  # so that in a notebook under test the cell that moved the control fails
         finally:
             message = _message(self.error, self.values) if self.error else ""
-            self._area.value = message + _framed(self._shown, self._shown.sentence)
+            self._area.value = message + framed(self._shown, self._shown.sentence)
 
     def __repr__(self) -> str:
         lines = [f"Live({name_of(self._fn)})"]
@@ -115,7 +95,7 @@ class Live(ipywidgets.VBox):
     def _repr_mimebundle_(self, **kwargs: Any) -> dict[str, Any]:
         """Offer controls to a notebook, the bare result to a page without Python, every setting as text to a test."""
         settings = f"{listed(self.values)}. Run this notebook to move the controls."
-        still = _framed(self._shown, self._shown.sentence, settings)
+        still = framed(self._shown, self._shown.sentence, settings)
         return {**super()._repr_mimebundle_(**kwargs), "text/html": still, "text/plain": repr(self)}
 
 
@@ -127,36 +107,6 @@ def _check_alt(alt: str, values: Mapping[str, Any]) -> None:
         alt.format(**values)
     except (LookupError, ValueError, AttributeError) as reason:
         fail("alt", f"a text with no names in braces but {', '.join(values)}", f"{show(alt)} ({reason!r})")
-
-
-def _render(result: Any, alt: str) -> _Shown:
-    drawing, sentence = result if isinstance(result, tuple) and len(result) == 2 else (result, "")
-    figure = drawing if isinstance(drawing, Figure) else getattr(drawing, "figure", None)
-    if isinstance(figure, Figure):
-        return _render_figure(figure, str(sentence or ""), alt)
-    if result is None:
-        advice = "End the function with `return` and what it drew."
-        fail("fn", "a function that returns a figure, axes or something to print", "None", advice, TypeError)
-    text = f'<pre style="margin: 0; white-space: pre-wrap">{escape(str(result))}</pre>'
-    return _Shown(f'<div role="group" aria-label="{escape(alt)}">{text}</div>', "", f"shows: {alt}\n{result}")
-
-
-def _render_figure(figure: Figure, sentence: str, alt: str) -> _Shown:
-    svg = to_svg(figure)
-    plt.close(figure)
-    width, height = (round(96 * inches) for inches in figure.get_size_inches())  # known before the image has loaded
-    image = (
-        f'<img src="data:image/svg+xml,{quote(svg, safe=_PLAIN_IN_URL)}" alt="{escape(alt)}" '
-        f'width="{width}" height="{height}" style="max-width: 100%; height: auto">'
-    )
-    digest = hashlib.sha256(svg.encode()).hexdigest()[:12]
-    return _Shown(image, sentence, "\n".join(filter(None, [f"shows: {alt}", sentence, f"figure {digest}"])))
-
-
-def _framed(shown: _Shown, *caption: str) -> str:
-    lines = "<br>".join(escape(line) for line in caption if line)
-    caption_below = f'<figcaption style="line-height: 1.5">{lines}</figcaption>' if lines else ""
-    return f'<figure class="rl-live" style="margin: 0">{shown.body}{caption_below}</figure>'
 
 
 def _message(error: Exception, values: Mapping[str, Any]) -> str:

@@ -31,7 +31,13 @@ def line(gamma=0.5, slip=0.0):
     return figure, f"At most {gamma:.2f}."
 def controls():
     return {"gamma": (0.5, 0.9, 0.1), "slip": [0.0, 0.2, 0.4]}
+class Steps(rl.widgets.Explorable):
+    entry, defaults, alt = "explorables/steps", {"steps": 1, "map": {"width": 4}}, "A line."
+    _esm, _css = "export default { render() {} }", ""
+    def still(self): return line(self.state["steps"] / 10)
 """
+EXPLORABLE = "Steps({'steps': 5}, tables={'most': 9})"
+REDRAWN = "Steps.still = lambda self: (line(0.6)[0], line(0.5)[1])"
 LIVE = 'rl.widgets.Live(line, controls(), alt="A line up to {gamma}.")'
 PNG = "buffer = io.BytesIO(); line()[0].savefig(buffer, dpi=50); Image(buffer.getvalue())"
 
@@ -131,6 +137,12 @@ PLANTS = [
     Plant("the alternative text of a figure", LIVE, in_source("A line", "One line")),
     Plant("the sentence below a figure", LIVE, in_outputs("At most", "At least")),
     Plant("the figure under the controls", LIVE, in_source("Live(line", "Live(lambda **v: (line(0.6)[0], line()[1])")),
+    Plant("a setting of an explorable", EXPLORABLE, in_source("5", "6")),
+    Plant("a setting that an explorable does not draw", EXPLORABLE, in_source("5}", "5, 'map': {'width': 8}}")),
+    Plant("a setting in the page of an explorable", EXPLORABLE, in_outputs('\\"steps\\":5', '\\"steps\\":6')),
+    Plant("the tables of an explorable", EXPLORABLE, in_source("9", "8")),
+    Plant("the still picture of an explorable", EXPLORABLE, in_source("Steps", f"{REDRAWN}\nSteps")),
+    Plant("the words of an explorable", EXPLORABLE, in_outputs("At most 0.50", "At most 0.60")),
     Plant("an error when a control moves", LIVE + ".controls['slip'].value = 0.2", in_source("= 0.2", "= 0.4")),
 ]
 

@@ -4,7 +4,7 @@ import nbformat
 import pytest
 
 import execute
-from canonical import WIDGET_STATE, WIDGET_VIEW, canonical, read
+from canonical import WIDGET_STATE, WIDGET_VIEW, canonical, read, widget_models
 
 CHAPTER = [
     "import rlnav as rl\nfrom matplotlib.figure import Figure\nrl.plot.style()",
@@ -53,6 +53,17 @@ def test_a_check_reports_what_differs_and_changes_nothing(notebook, monkeypatch,
     assert run(monkeypatch, "--check", path) == 1
     assert path.read_text() == canonical(stale)
     assert '-       "0.24"' in capsys.readouterr().out
+
+
+def test_an_explorable_is_stored_without_its_program_and_with_its_picture(notebook, monkeypatch):
+    steps = (
+        "class Steps(rl.widgets.Explorable):\n    entry = 'explorables/steps'\n    _esm, _css = 'export default {}', ''"
+    )
+    path = notebook(CHAPTER[0], f"{steps}\n    alt, still = 'A line.', lambda self: Figure(figsize=(2, 1))\nSteps()")
+    assert run(monkeypatch, path) == 0
+    (output,) = read(path).cells[1].outputs
+    assert set(output.data) == {"text/html", "text/plain"}  # JupyterLab shows the picture, until the cell is run
+    assert widget_models(read(path)) == {}
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,8 @@ import matplotlib.figure
 import nbformat
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
+import rlnav
+
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 WIDGET_STATE = "application/vnd.jupyter.widget-state+json"
 
@@ -147,6 +149,12 @@ def glued(name: str, text: str) -> nbformat.NotebookNode:
     )
 
 
+def explorable() -> str:
+    """Return an explorable as a chapter stores it."""
+    task = rlnav.Task(rlnav.GridWorld.from_ascii(">..G"))
+    return rlnav.widgets.LoopDebugger(task).html()
+
+
 def notebook() -> nbformat.NotebookNode:
     """Return the chapter, with the state of a slider in its metadata as nbclient stores it."""
     svg = figure()
@@ -174,6 +182,7 @@ def notebook() -> nbformat.NotebookNode:
         ),
         cell("Live(draw, controls)", [live_svg], mystnb=described),
         cell("Live(draw_in_html, controls)", [live_html]),
+        cell("rl.widgets.LoopDebugger(task)", [result(text__html=explorable(), text__plain="LoopDebugger")]),
         cell("print(best)", [new_output("stream", text="sweep " + "0123456789 " * 20 + "\n")]),
         cell("table", [result(text__html=table, text__plain="table")]),
         cell('glue("sample-sweeps", 14)', [glued("sample-sweeps", "14")]),

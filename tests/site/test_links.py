@@ -5,7 +5,10 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import browsing
 from building import pages
+
+SIMULATOR = 'data-entry="simulator/app"'  # its settings may follow the # of an address
 
 
 class Links(HTMLParser):
@@ -29,18 +32,25 @@ def read(path: Path) -> Links:
     return links
 
 
-def test_every_internal_link_leads_somewhere(book):
-    dead, followed = [], 0
+def test_every_internal_link_leads_somewhere(browser, address, book):
+    dead, followed, settings = [], 0, set()
     for page in pages(book):
-        for address in read(page).addresses:
-            parts = urlsplit(address)
+        for link in read(page).addresses:
+            parts = urlsplit(link)
             if parts.scheme or parts.netloc:
                 continue
             target = (page.parent / unquote(parts.path)) if parts.path else page
             followed += 1
             if not target.is_file():
-                dead.append(f"{page.relative_to(book)} -> {address}")
+                dead.append(f"{page.relative_to(book)} -> {link}")
+            elif "=" in parts.fragment and SIMULATOR in target.read_text(encoding="utf-8"):
+                settings.add(f"{target.relative_to(book)}#{parts.fragment}")
             elif target.suffix == ".html" and unquote(parts.fragment) not in read(target).places:
-                dead.append(f"{page.relative_to(book)} -> {address} (no such place)")
+                dead.append(f"{page.relative_to(book)} -> {link} (no such place)")
     assert dead == []
     assert followed > 100, "hardly any link was followed: is the book empty?"
+    for link in settings:  # the simulator takes them without a complaint
+        with browsing.visit(browser, address + link) as here:
+            here.page.wait_for_selector(".rlnav-explorable.is-live")
+            assert here.page.locator(".rl-message").all_text_contents() == []
+            assert here.complaints == []

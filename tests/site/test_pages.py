@@ -22,12 +22,19 @@ OVERFLOW = """() => {
 UNSET_MATHEMATICS = """() => [...document.querySelectorAll('.math')].filter(
   e => !e.querySelector('mjx-container') || e.querySelector('mjx-merror')).map(e => e.textContent)"""
 IMAGES = "() => [...document.querySelectorAll('article img')].map(e => e.alt)"
+EXPLORABLES_ARE_LIVE = """() => {
+  const all = [...document.querySelectorAll('.rlnav-explorable')];
+  all.forEach(element => element.scrollIntoView()); // they start when they are near
+  scrollTo(0, 0);
+  return all.every(element => element.matches('.is-live'));
+}"""
 LOOKS_LIKE_A_PATH = re.compile(r"^(\.*/|_images|data:|\S+/\S+$)|\.(png|svg|jpe?g|gif)$")
 
 
 def assert_whole(here: browsing.Visit) -> None:
     """Look at the page in light and in dark mode."""
     page = here.page
+    page.wait_for_function(EXPLORABLES_ARE_LIVE)
     assert page.evaluate(OVERFLOW) == [], "the page scrolls sideways"
     assert page.evaluate(UNSET_MATHEMATICS) == []
     alts = page.evaluate(IMAGES)
@@ -53,11 +60,12 @@ def test_no_page_is_forgotten(book):
     assert set(PAGES) <= built
 
 
-@pytest.mark.parametrize("name", ["index", *CHAPTERS[:2]])
+@pytest.mark.parametrize("name", ["index", *CHAPTERS[:2], "book/18-simulator"])
 def test_a_page_opens_from_a_folder(browser, book, name):
     with browsing.visit(browser, (book / f"{name}.html").as_uri()) as here:
         assert here.page.locator("article h1").first.is_visible()
         assert here.page.evaluate(UNSET_MATHEMATICS) == []
+        here.page.wait_for_function(EXPLORABLES_ARE_LIVE)
         assert here.complaints == []
 
 

@@ -1,5 +1,7 @@
 """What the book's own parts do, seen on a chapter that has one of everything."""
 
+import re
+
 import pytest
 
 import browsing
@@ -25,8 +27,42 @@ def test_a_page_shows_the_figure_instead_of_controls_without_python(chapter, sam
     html = (sample_book / "book/sample.html").read_text()
     for dead in ("widget-view+json", "widget-state+json", "html-manager", "require.js", "requirejs"):
         assert dead not in html
-    assert chapter.locator(".cell_output img").count() == 3
+    assert chapter.locator(".cell_output img:not(.rlnav-explorable *)").count() == 3
     assert chapter.get_by_text("Run this notebook to move the controls").is_visible()
+
+
+def test_an_explorable_starts_when_the_reader_comes_to_it(chapter):
+    explorable = chapter.locator(".rlnav-explorable")
+    explorable.scroll_into_view_if_needed()
+    explorable.get_by_role("button").first.wait_for()
+    assert not explorable.locator(".rl-live").is_visible()
+    assert findings(chapter) == []
+
+
+def test_nothing_around_an_explorable_scrolls_or_clips(chapter):
+    """Or what sticks to the window inside it would not, and its rings of focus would be cut."""
+    around = "e => (e = e.parentElement) ? [getComputedStyle(e).overflow, ...around(e)] : []"
+    overflow = chapter.locator(".rlnav-explorable").evaluate(f"e => {{ const around = {around}; return around(e); }}")
+    assert set(overflow) == {"visible"}
+
+
+def test_only_pages_with_explorables_load_their_script(sample_book):
+    host = re.search(r"<script [^>]*explorables\.js[^>]*>", (sample_book / "book/sample.html").read_text())
+    assert re.search(r'data-version="[0-9a-f]{8}"', host[0]), "a browser may keep a program until it changes"
+    assert "explorables.js" not in (sample_book / "book/other.html").read_text()
+    programs = [path.name for path in (sample_book / "_static/rlnav").rglob("*.*")]
+    assert sorted(programs) == ["loop_debugger.css", "loop_debugger.js"]
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_what_an_explorable_draws_is_not_taken_for_a_figure(browser, sample_address, scheme):
+    """A figure is put on a white card where the page is dark; an explorable has a dark look of its own."""
+    with browsing.visit(browser, f"{sample_address}book/sample.html", scheme=scheme) as here:
+        here.page.locator(".rlnav-explorable").scroll_into_view_if_needed()
+        here.page.locator(".rlnav svg").first.wait_for(state="attached")
+        looks = "all => all.map(e => [getComputedStyle(e).filter, getComputedStyle(e).backgroundColor])"
+        drawn = here.page.locator(".rlnav :is(svg, img, canvas)").evaluate_all(looks)
+        assert {tuple(look) for look in drawn} == {("none", "rgba(0, 0, 0, 0)")}
 
 
 def test_the_big_icon_script_is_not_loaded_and_icons_are_there(chapter):
