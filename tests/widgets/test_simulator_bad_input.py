@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 import rlnav as rl
 
 from .arena import Arena
-from .pages import state_of
+from .pages import state_now
 
 RUN = ".rl-run-words"
 DAMAGED = [
@@ -22,18 +22,20 @@ DAMAGED = [
     "#gamma=NaN&Q0=Infinity&steering=1,2,3",
     "#" + quote("alpha=0.5&reward={", safe="=&") + "x" * 5000,
 ]
-STRANGE = {
-    "nothing": "",
-    "cut off": '{"version": 1, "scenario": {"alpha": 0.',
-    "no object": "[1, 2, 3]",
-    "other things": '{"color": "red"}',
-    "two goals": {"map": ["G...", "....", "....", "...G"]},
-    "no goal": {"map": ["....", "....", "....", "...."]},
-    "uneven rows": {"map": ["....", "..", "....", "...G"]},
-    "a start in a wall": {"map": ["#...", "....", "....", "...G"], "starts": [[0, 3, 0]]},
-    "numbers out of range": {"alpha": 7},
-    "another type": {"episodes": "many"},
-    "an unknown key": {"colour": 1},
+STRANGE = {  # settings, and what the message has to name
+    "nothing": ("", "settings"),
+    "cut off": ('{"rlnav": 1, "scenario": {"alpha": 0.', "settings"),
+    "no object": ("[1, 2, 3]", "settings"),
+    "of a later version": ('{"rlnav": 99, "scenario": {"alpha": 0.5}, "view": {}}', "version 99"),
+    "of another program": ('{"color": "red"}', "version"),
+    "too long": ("x" * 1_100_000, "settings"),
+    "two goals": ({"map": ["G...", "....", "....", "...G"]}, "map"),
+    "no goal": ({"map": ["....", "....", "....", "...."]}, "map"),
+    "uneven rows": ({"map": ["....", "..", "....", "...G"]}, "map"),
+    "a start in a wall": ({"map": ["#...", "....", "....", "...G"], "starts": [[0, 3, 0]]}, "starts"),
+    "numbers out of range": ({"alpha": 7}, "alpha"),
+    "another type": ({"episodes": "many"}, "episodes"),
+    "an unknown key": ({"colour": 1}, "colour"),
 }
 
 
@@ -67,8 +69,8 @@ def test_a_damaged_address_is_told_and_the_rest_of_it_used(simulator, address):
     page = simulator(address).page
     assert boxes(page), "the page says what it could not read"
     assert all(len(text) < 400 and "undefined" not in text for text in boxes(page))
-    assert state_of(page)["scenario"]["alpha"] in (0.2, 0.5)
-    assert ("alpha=0.5" in address) == (page.get_by_label("Step size α, as a number").input_value() == "0.5")
+    Arena(page.locator("body")).open("Learner")
+    expect(page.get_by_label("Step size α, as a number")).to_have_value("0.5" if "alpha=0.5" in address else "0.2")
     learns(page)
 
 
@@ -77,13 +79,11 @@ def test_settings_that_cannot_be_are_refused_and_the_run_goes_on(simulator, kind
     page = simulator(seed=5).page
     learns(page)
     page.get_by_role("button", name="Pause", exact=True).click()
-    before, words = state_of(page), page.locator(RUN).text_content()
-    text = STRANGE[kind]
-    if isinstance(text, dict):
-        text = json.dumps({"version": 1, "scenario": text, "view": {}})
-    paste(page, text)
-    expect(page.locator(".rl-fault, .rl-message").filter(has_text=re.compile(r"\w")).first).to_be_visible()
-    assert state_of(page) == before
+    before, words = state_now(page), page.locator(RUN).text_content()
+    settings, named = STRANGE[kind]
+    paste(page, settings if isinstance(settings, str) else json.dumps({"rlnav": 1, "scenario": settings, "view": {}}))
+    expect(page.locator(".rl-fault, .rl-message").filter(has_text=named)).to_be_visible()
+    assert state_now(page) == before
     assert page.locator(RUN).text_content() == words
     page.get_by_role("button", name="Go on", exact=True).click()
     expect(page.locator(RUN)).not_to_have_text(words)
@@ -111,7 +111,7 @@ def test_a_number_out_of_range_is_refused_beside_its_field(simulator, label, typ
     field.press("Enter")
     expect(field).to_have_attribute("aria-invalid", "true")
     expect(page.locator(".rl-fault").filter(has_text="is kept")).to_be_visible()
-    assert state_of(page)["scenario"][key] == kept
+    assert state_now(page)["scenario"][key] == kept
     field.blur()
     assert float(field.input_value()) == kept
     learns(page)
@@ -124,7 +124,7 @@ def test_a_goal_that_would_be_painted_over_stays(simulator):
     sim.drag((5, 7), (8, 7))
     expect(page.locator(".rl-message").filter(has_text="goal")).to_be_visible()
     sim.says("the goal at (7, 7)")
-    assert state_of(page)["scenario"]["map"][2] == ".....##G#."
+    assert state_now(page)["scenario"]["map"][2] == ".....##G#."
     learns(page)
 
 

@@ -17,8 +17,9 @@ const BRIEF = {
     const title = name[0].toUpperCase() + name.slice(1).replace("_", " ");
     return `${title}, ${map[0].length} × ${map.length}${slip ? `, slip ${slip}` : ""}`;
   },
-  design({ features, steering, gamma }) {
-    const state = features ? counted(features.length, "feature") : "whole pose";
+  design({ features, steering, gamma }, own) {
+    const given = features ? counted(features.length, "feature") : "whole pose";
+    const state = own.includes("features") ? "features from Python" : given;
     return `${state}, ${counted(steering.length, "turn")}, γ ${gamma}`;
   },
   learner(scenario) {
@@ -30,9 +31,9 @@ const BRIEF = {
   share: () => "link, Python, files",
 };
 
-/** Tell a group's settings in brief. */
-export function inBrief(key, scenario) {
-  return BRIEF[key](scenario);
+/** Tell a group's settings in brief; `own` names the designs that are functions of the reader's own. */
+export function inBrief(key, scenario, own) {
+  return BRIEF[key](scenario, own);
 }
 
 function counted(n, noun) {

@@ -48,7 +48,7 @@ export function designPanel(app) {
       steers.refresh();
       pays.refresh();
       looks.refresh(app.scenario.gamma);
-      panel.summary(inBrief("design", app.scenario));
+      panel.summary(inBrief("design", app.scenario, app.session.own));
     },
   };
 }

@@ -27,7 +27,7 @@ export class Folded {
   refresh() {
     for (const [key, shell] of this.shells) {
       if (key in this.panels) this.app.stage.attempt(() => this.panels[key].refresh());
-      else shell.summary(inBrief(key, this.app.scenario));
+      else shell.summary(inBrief(key, this.app.scenario, this.app.session.own));
     }
   }
 

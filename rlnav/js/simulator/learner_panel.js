@@ -67,7 +67,7 @@ export function learnerPanel(app) {
       explained.textContent = ALGORITHMS[scenario.algorithm];
       alpha.refresh(scenario);
       epsilon.refresh(scenario);
-      panel.summary(inBrief("learner", scenario));
+      panel.summary(inBrief("learner", scenario, app.session.own));
     },
   };
 }
