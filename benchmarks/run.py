@@ -1,7 +1,7 @@
 """Measure rlnav against hand-written C and against what people would use instead; print Markdown tables.
 
     .venv/bin/python benchmarks/run.py                      # everything, some minutes
-    .venv/bin/python benchmarks/run.py planning learning    # or some of: planning learning classroom import book
+    .venv/bin/python benchmarks/run.py planning learning    # or some of the tables that --help names
 
 README.md says how to read them.
 """
@@ -21,6 +21,7 @@ import numpy as np
 import limits
 import peers
 import rlnav as rl
+import simulator
 from measure import fresh, ratio
 from problem import GAMMA, robot
 
@@ -129,7 +130,15 @@ def show(rows: Rows) -> None:
 
 
 if __name__ == "__main__":
-    tables = {"planning": planning, "learning": learning, "classroom": classroom, "import": imports, "book": book}
+    tables = {
+        "planning": planning,
+        "learning": learning,
+        "classroom": classroom,
+        "import": imports,
+        "book": book,
+        "simulator": simulator.speed,
+        "weight": simulator.weight,
+    }
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("table", nargs="*", help=f"some of {', '.join(tables)}; by default all")
     chosen = parser.parse_args().table or list(tables)

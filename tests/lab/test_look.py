@@ -1,0 +1,67 @@
+"""How explorables look in JupyterLab: each of them, in its dark theme, and in a notebook that was only stored."""
+
+import re
+
+import nbformat
+
+from canonical import canonical
+from execute import execute
+
+from ..widgets.arena import Arena
+
+BUTTONS = {
+    "ValueWave": "One sweep",
+    "OneUpdate": "One step",
+    "BackupDiagram": "Turn left",
+    "LoopDebugger": "Whole step",
+}
+TASK = "import rlnav as rl\ntask = rl.Task(rl.GridWorld.from_ascii('>...\\n.#..\\n...G'))"
+SIMULATOR = "import rlnav as rl\nrl.widgets.Simulator(episodes=20)"
+LUMINANCE = """element => {
+  const canvas = document.createElement("canvas").getContext("2d");
+  const linear = c => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+  const luminance = color => {
+    canvas.fillStyle = color;
+    canvas.fillRect(0, 0, 1, 1);
+    const [r, g, b] = [...canvas.getImageData(0, 0, 1, 1).data].map(linear);
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+  };
+  let ground = element;
+  while (getComputedStyle(ground).backgroundColor === "rgba(0, 0, 0, 0)") ground = ground.parentElement;
+  return [luminance(getComputedStyle(element).color), luminance(getComputedStyle(ground).backgroundColor)];
+}"""
+
+
+def test_every_explorable_starts_and_its_state_is_told_to_the_kernel(notebook):
+    it = notebook(TASK, *(f"w = rl.widgets.{name}(task)\nw" for name in BUTTONS))
+    it.run()
+    for number, button in enumerate(BUTTONS.values(), 1):
+        root = it.run(number).locator(".rlnav")
+        it.tell("before = w.state")
+        root.get_by_role("button", name=button, exact=True).click()
+        it.wait_until("w.state != before")
+        assert root.get_by_role("alert").filter(has_text=re.compile(r"\w")).count() == 0
+
+
+def test_the_dark_theme_is_followed_while_it_is_open(notebook, lab):
+    sim = Arena(notebook(SIMULATOR).run())
+    words = sim.element.locator(".rl-run-words")
+    light = words.evaluate(LUMINANCE)
+    lab.theme("JupyterLab Dark")
+    dark = words.evaluate(LUMINANCE)
+    assert light[0] < light[1]
+    assert dark[0] > dark[1]
+    for ink, ground in (light, dark):
+        assert (max(ink, ground) + 0.05) / (min(ink, ground) + 0.05) >= 4.5
+
+
+def test_a_stored_notebook_shows_the_still_picture(lab, tmp_path):
+    """There is no kernel that knows the widget, so JupyterLab would only say that it does not find it."""
+    path = tmp_path / "stored.ipynb"
+    nbformat.write(nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(SIMULATOR)]), path)
+    (lab.folder / "stored.ipynb").write_text(canonical(execute(path)))
+    output = lab.reopen("stored").output()
+    picture = output.get_by_role("img")
+    assert "Map with the value of every pose" in picture.get_attribute("alt")
+    assert picture.evaluate("image => image.decode().then(() => image.naturalWidth)") > 200
+    assert "Error" not in output.inner_text()
