@@ -1,4 +1,4 @@
-"""One JupyterLab and one browser for all the tests of this folder; each test has notebooks and kernels of its own."""
+"""One JupyterLab for all the tests of this folder; each test has notebooks and kernels of its own."""
 
 from itertools import count
 
@@ -19,9 +19,9 @@ def server(tmp_path_factory):
         yield address, home / "notebooks"
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def open_lab(server):
-    """JupyterLab, open in a browser."""
+    """JupyterLab, open in a browser. For one file only: two of these browsers at a time cannot be."""
     address, folder = server
     with browsing.launched() as browser:
         lab = Lab(browser.new_context(viewport=WINDOW).new_page(), address, folder)
