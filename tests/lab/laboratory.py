@@ -15,7 +15,7 @@ from typing import Any
 import nbformat
 from playwright.sync_api import Locator, Page
 
-PATIENCE = 30  # seconds until something that should happen counts as failed; nothing here waits that long
+PATIENCE = 60  # seconds until something that should happen counts as failed; nothing here waits that long
 WINDOW = {"width": 1280, "height": 1000}
 OPTIONS = (
     "--no-browser",
@@ -82,7 +82,7 @@ def jupyterlab(home: Path) -> Iterator[str]:
     news.parent.mkdir(parents=True)
     news.write_text(json.dumps(NEWS))
     environment = {
-        **os.environ,
+        **{name: value for name, value in os.environ.items() if not name.startswith("JUPYTER")},
         "HOME": str(home),
         "IPYTHONDIR": str(folders["ipython"]),
         **{f"JUPYTER_{name.upper()}_DIR": str(folders[name]) for name in ("config", "data", "runtime")},
@@ -124,8 +124,14 @@ class Lab:
         self.folder = folder
         self.complaints: list[str] = []
         page.set_default_timeout(1000 * PATIENCE)
-        page.on("pageerror", lambda error: self.complaints.append(f"script error: {error} {error.stack}"))
+        page.on("pageerror", lambda error: self.complaints.append(f"script error: {error.stack or error}"))
+        page.on("request", lambda request: self.see(request.url))
         page.on("console", lambda m: self.hear(m.text) if m.type == "error" else None)
+
+    def see(self, url: str) -> None:
+        """Write down what would need another server."""
+        if not url.startswith((self.address.split("lab?")[0], "data:", "blob:")):
+            self.complaints.append(f"asks for something outside: {url}")
 
     def hear(self, error: str) -> None:
         """Write down an error of the console, unless it is one of JupyterLab's own affairs."""

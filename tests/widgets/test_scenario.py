@@ -8,7 +8,7 @@ import pytest
 
 import browsing
 import rlnav as rl
-from rlnav.widgets import Simulator, _bundle, _scenario
+from rlnav.widgets import Simulator, _modules, _scenario
 
 BAD = [
     {"map": ["..", "G"]},
@@ -56,7 +56,7 @@ GOOD = [
 @pytest.fixture(scope="module")
 def js(browser):
     """Run functions in a page that has the package's modules at /."""
-    with browsing.served(_bundle.HOME) as address, browsing.visit(browser, address) as here:
+    with browsing.served(_modules.HOME) as address, browsing.visit(browser, address) as here:
         yield here.page.evaluate
         assert here.complaints == []
 

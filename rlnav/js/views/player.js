@@ -2,7 +2,9 @@
  * Time: calls `tick` at a chosen speed and `draw` once a frame, and never so long that the page would freeze.
  */
 
-const BUDGET = 8; // milliseconds of ticks in one frame of 16
+const BUDGET = 8; // milliseconds of ticks in one frame of 16, at most ...
+const LEAST = 2; // ... and at least
+const FRAME = 12; // milliseconds that ticks and drawing may take together; the browser needs the rest for layout and paint
 const CALM = 250; // milliseconds between two pictures for those who ask for less motion
 const LONGEST = 100; // milliseconds: what a frame may make up for; a tab that slept has nothing to make up for
 
@@ -16,6 +18,7 @@ export class Player {
     Object.assign(this, { tick, draw, speed, onStop });
     this.playing = false;
     this.frame = 0;
+    this.cost = 0; // milliseconds that the last picture took
     this.calm = matchMedia("(prefers-reduced-motion: reduce)");
     this.onFrame = (now) => this.advance(now);
     this.onVisible = () => this.wait();
@@ -61,16 +64,23 @@ export class Player {
     const wanted = !this.calm.matches || now - this.drawn >= CALM || !more;
     if (wanted) {
       this.drawn = now;
+      const begin = performance.now();
       this.draw(this.calm.matches || this.speed === Infinity ? 1 : Math.min(this.due, 1));
+      this.cost = performance.now() - begin;
     }
     if (!more) this.stop(null);
     else if (this.playing) this.frame = requestAnimationFrame(this.onFrame);
   }
 
+  /** Milliseconds that ticks may take in this frame: the longer a picture takes, the fewer. */
+  get budget() {
+    return Math.max(LEAST, Math.min(BUDGET, FRAME - this.cost));
+  }
+
   /** As fast as possible: ticks until the budget of the frame is spent. */
   rush() {
-    const end = performance.now() + BUDGET;
-    for (let left = BUDGET; left > 0; left = end - performance.now()) {
+    const end = performance.now() + this.budget;
+    for (let left = this.budget; left > 0; left = end - performance.now()) {
       if (!this.tick(left)) return false;
       if (!this.playing) break;
     }
@@ -80,7 +90,7 @@ export class Player {
   /** At a speed: the ticks that are due; what does not fit into the budget is dropped, not queued. */
   walk(passed) {
     this.due += (passed * this.speed) / 1000;
-    const end = performance.now() + BUDGET;
+    const end = performance.now() + this.budget;
     while (this.due >= 1 && this.playing) {
       this.due -= 1;
       if (!this.tick(0)) return false;
