@@ -31,7 +31,7 @@ OPTIONS = (
 NEWS = {"fetchNews": "false", "checkForUpdates": False}
 NEWS_FILE = "lab/user-settings/@jupyterlab/apputils-extension/notification.jupyterlab-settings"
 
-OWN_AFFAIRS = ("Could not restore the debugger state",)  # a kernel was ended before it had answered about its debugger
+OWN_AFFAIRS = "Canceled future for"  # JupyterLab asks a kernel about itself, and it is ended before it has answered
 
 DONE = re.compile(r"\[\d+\]:")  # while a cell runs there is a star
 FAILED = "[data-mime-type='application/vnd.jupyter.stderr'], [data-mime-type='application/vnd.jupyter.error']"
@@ -42,7 +42,6 @@ OPEN = """async path => {
   await panel.sessionContext.ready;
   await panel.sessionContext.session.kernel.info;
 }"""
-# A question goes the way that the messages of the page have gone, hence after them.
 ASK = f"""async expression => {{ {PANEL}
   const question = {{ answer: `__import__("json").dumps(${{expression}})` }};
   const request = {{ code: "", silent: true, store_history: false, user_expressions: question }};
@@ -124,9 +123,9 @@ class Lab:
         self.folder = folder
         self.complaints: list[str] = []
         page.set_default_timeout(1000 * PATIENCE)
-        page.on("pageerror", lambda error: self.complaints.append(f"script error: {error.stack or error}"))
+        page.on("pageerror", lambda error: self.hear(f"script error: {error.stack or error}"))
         page.on("request", lambda request: self.see(request.url))
-        page.on("console", lambda m: self.hear(m.text) if m.type == "error" else None)
+        page.on("console", lambda m: self.hear(f"console: {m.text}") if m.type == "error" else None)
 
     def see(self, url: str) -> None:
         """Write down what would need another server."""
@@ -134,9 +133,9 @@ class Lab:
             self.complaints.append(f"asks for something outside: {url}")
 
     def hear(self, error: str) -> None:
-        """Write down an error of the console, unless it is one of JupyterLab's own affairs."""
-        if not error.startswith(OWN_AFFAIRS):
-            self.complaints.append(f"console: {error}")
+        """Write down an error, unless it is one of JupyterLab's own affairs."""
+        if OWN_AFFAIRS not in error:
+            self.complaints.append(error)
 
     def open(self, name: str, *cells: str) -> "Notebook":
         """Write a notebook with these cells, and open it."""
@@ -191,7 +190,7 @@ class Notebook:
         return self.output(number)
 
     def ask(self, expression: str) -> Any:
-        """Return the value of an expression in the kernel, after all that the page has told it so far."""
+        """Return the value of an expression in the kernel; what the page tells it may still be on its way."""
         return json.loads(evaluate(self.page, ASK, expression))
 
     def tell(self, code: str) -> None:

@@ -30,4 +30,4 @@ def test_page_and_kernel_hear_each_other(notebook):
     it.tell("counter.count = 40")
     it.element.get_by_text("count 40").wait_for()
     button.click()
-    assert it.ask("counter.count") == 41
+    it.wait_until("counter.count == 41")

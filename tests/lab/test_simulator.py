@@ -48,8 +48,11 @@ def test_the_page_follows_what_python_sets(notebook):
     slip = sim.open("World").locator("[data-key=slip] input").first
     expect(slip).to_have_value("0.3")
     it.tell("sim.state = {**sim.state, 'view': {**sim.state['view'], 'numbers': True}}")
-    expect(sim.element.get_by_role("checkbox", name="Numbers")).to_be_checked()
-    assert it.ask("len(heard)") == 2, "the page does not answer what it was told"
+    numbers = sim.element.get_by_role("checkbox", name="Numbers")
+    expect(numbers).to_be_checked()
+    numbers.uncheck()
+    it.wait_until("sim.state['view']['numbers'] is False")
+    assert it.ask("len(heard)") == 3, "the page does not answer what it was told"
 
 
 def test_what_python_refuses_changes_nothing(notebook):

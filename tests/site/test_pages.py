@@ -23,10 +23,9 @@ UNSET_MATHEMATICS = """() => [...document.querySelectorAll('.math')].filter(
   e => !e.querySelector('mjx-container') || e.querySelector('mjx-merror')).map(e => e.textContent)"""
 IMAGES = "() => [...document.querySelectorAll('article img')].map(e => e.alt)"
 EXPLORABLES_ARE_LIVE = """() => {
-  const all = [...document.querySelectorAll('.rlnav-explorable')];
-  all.forEach(element => element.scrollIntoView()); // they start when they are near
-  scrollTo(0, 0);
-  return all.every(element => element.matches('.is-live'));
+  const next = [...document.querySelectorAll('.rlnav-explorable')].find(element => !element.matches('.is-live'));
+  next ? next.scrollIntoView() : scrollTo(0, 0); // they start when the reader comes near
+  return !next;
 }"""
 LOOKS_LIKE_A_PATH = re.compile(r"^(\.*/|_images|data:|\S+/\S+$)|\.(png|svg|jpe?g|gif)$")
 
