@@ -17,7 +17,8 @@ export class LookAhead {
     this.rows = h("tbody");
     this.table = h("table", { class: "rl-numbers" }, this.title, head, this.rows);
     this.hint = h("p", { class: "rl-help" });
-    this.element = h("div", { class: "rl-look-ahead rl-numbers-scroll" }, this.table, this.hint);
+    const scrolls = { tabindex: 0, role: "group", "aria-label": "Look-ahead of a pose" };
+    this.element = h("div", { class: "rl-look-ahead rl-numbers-scroll", ...scrolls }, this.table, this.hint);
     parent.append(this.element);
   }
 

@@ -15,7 +15,8 @@ export class UpdateRows {
     const head = h("thead", {}, h("tr", {}, h("th", { scope: "col", text: "turn" }), this.own, this.next));
     const caption = h("caption", { text: "Both rows, before the update" });
     this.table = h("table", { class: "rl-numbers rl-two-rows" }, caption, head, this.body);
-    this.element = h("div", { class: "rl-numbers-scroll" }, this.table);
+    const scrolls = { tabindex: 0, role: "group", "aria-label": "Both rows" };
+    this.element = h("div", { class: "rl-numbers-scroll", ...scrolls }, this.table);
     parent.append(this.element);
   }
 
