@@ -152,14 +152,14 @@ def test_the_style_is_that_of_the_views_of_the_folder_and_of_the_entry(program):
 
 WITH_A_PART = {
     "views/stage.js": "export function open(model, el, start) { return start(model); }\n",
-    "shared.js": "export const count = [0];\nexport const unused = 1;\n",
-    "deep/entry.js": 'import { count } from "../shared.js";\n'
+    "both.js": "export const count = [0];\nexport const unused = 1;\n",
+    "deep/entry.js": 'import { count } from "../both.js";\n'
     "export async function start(model) {\n"
     "  count[0] += 1;\n"
     '  const { more } = await import("./part.js");\n'
     "  return more(model);\n"
     "}\n",
-    "deep/part.js": 'import { count } from "../shared.js";\nimport { own } from "./own.js";\n'
+    "deep/part.js": 'import { count } from "../both.js";\nimport { own } from "./own.js";\n'
     "export const more = (model) => [model, count[0], own];\n",
     "deep/own.js": "export const own = 'own';\n",
 }
