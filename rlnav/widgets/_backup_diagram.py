@@ -96,8 +96,8 @@ class BackupDiagram(TaskExplorable):
         task = _scenario.task_of(state["scenario"], self._own)
         pose = task.world.starts[0] if state["pose"] is None else Pose(*items("pose", state["pose"], "[x, y, theta]"))
         task.index(pose)
-        _scenario._one_of("diagram", state["diagram"], DIAGRAMS)
-        _scenario._one_of(
+        _scenario.one_of("diagram", state["diagram"], DIAGRAMS)
+        _scenario.one_of(
             "policy", state["policy"], [name for name in POLICIES if name != "own" or self._policy is not None]
         )
         return {

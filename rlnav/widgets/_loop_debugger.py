@@ -59,7 +59,7 @@ class LoopDebugger(TaskExplorable):
         """Return the state with a complete scenario."""
         state = super().checked(state)
         choosers = [name for name in CHOOSERS if name != "own" or self._policy is not None]
-        _scenario._one_of("chooser", state["chooser"], choosers)
+        _scenario.one_of("chooser", state["chooser"], choosers)
         actions = [integer("actions", a, 0) for a in items("actions", state["actions"], "indices of actions")]
         return {**state, "actions": actions, "position": integer("position", state["position"], 0)}
 

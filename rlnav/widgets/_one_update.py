@@ -104,9 +104,9 @@ class OneUpdate(Explorable):
         """Return the state with a complete scenario, which can run."""
         state = super().checked(state)
         scenario = _scenario.checked(state["scenario"])
-        _scenario._one_of("algorithm", scenario["algorithm"], NAMES)
+        _scenario.one_of("algorithm", scenario["algorithm"], NAMES)
         for name in ("alpha_schedule", "epsilon_schedule"):
-            _scenario._one_of(name, scenario[name], ["constant"])
+            _scenario.one_of(name, scenario[name], ["constant"])
         _scenario.task_of(scenario, self._own)
         for name in ("guess", "end_has_value"):
             instance(name, state[name], bool)

@@ -230,9 +230,9 @@ def _checked_reward(given: Any) -> dict[str, Any]:
 
 
 def _check_learner(scenario: dict[str, Any]) -> dict[str, Any]:
-    _one_of("algorithm", scenario["algorithm"], ALGORITHMS)
+    one_of("algorithm", scenario["algorithm"], ALGORITHMS)
     for name in ("alpha", "epsilon"):
-        _one_of(f"{name}_schedule", scenario[f"{name}_schedule"], SCHEDULES)
+        one_of(f"{name}_schedule", scenario[f"{name}_schedule"], SCHEDULES)
         for key in (name, f"{name}_end"):
             scenario[key] = _check.number(key, scenario[key], 0, 1, above=name == "alpha")
             if scenario[key] == 0 and (kind := scenario[f"{name}_schedule"]) in RATIOS:
@@ -251,7 +251,8 @@ def _only(name: str, given: Mapping[str, Any], known: Mapping[str, Any]) -> None
             _check.fail(name, f"a dict with the keys {', '.join(known)}", f"the key {_check.show(key)}")
 
 
-def _one_of(name: str, value: Any, options: Any) -> None:
+def one_of(name: str, value: Any, options: Any) -> None:
+    """Refuse a value that is not among the options."""
     if not isinstance(value, str) or value not in options:
         _check.fail(name, f"one of {', '.join(map(repr, options))}", _check.show(value))
 
@@ -311,7 +312,7 @@ def _make_features(recipes: Any) -> tuple[designs.Feature, ...] | None:
     made = []
     for recipe in _check.items("features", recipes, "names of features, or None for the whole pose"):
         name, *argument = (recipe,) if isinstance(recipe, str) else _check.items("features", recipe, "names")
-        _one_of("features", name, FEATURES)
+        one_of("features", name, FEATURES)
         if len(argument) > (name in ("goal_bearing", "goal_distance")):
             _check.fail("features", f"{name!r} without an argument", _check.show(recipe))
         made.append(getattr(designs, name)(*argument))

@@ -139,8 +139,9 @@ class Simulator(Explorable):
         mdp, Q = task.mdp(), self._learned(task)
         pi, best = greedy(Q)[task.phi()], solve(mdp).V
         ax = plot.values(task, evaluate_policy(mdp, pi), vmin=best.min(), vmax=best.max())
-        plot.path(task, rollout(mdp, pi, rng=0), ax)
-        scores = evaluate(mdp, pi)
+        limit = self.scenario["max_steps"]
+        plot.path(task, rollout(mdp, pi, max_steps=limit, rng=0), ax)
+        scores = evaluate(mdp, pi, max_steps=limit)
         return ax, f"Greedy policy after {self._course()}: {scores}, gap {scores.gap:.3f}."
 
     def _learned(self, task: Task) -> NDArray[np.float64]:

@@ -91,12 +91,12 @@ class ValueWave(Explorable):
         number("gamma", scenario["gamma"], 0, MOST_GAMMA)
         task = self._task(scenario)
         if state["heading"] is not None:
-            _scenario._one_of("heading", str(state["heading"]), map(str, HEADINGS))
+            _scenario.one_of("heading", str(state["heading"]), map(str, HEADINGS))
         if state["pose"] is not None:
             pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
             task.index(pose)
             state["pose"] = [pose.x, pose.y, pose.theta]
-        _scenario._one_of("show", state["show"], SHOWN)
+        _scenario.one_of("show", state["show"], SHOWN)
         tol = number("tol", state["tol"], 0, above=True)
         return {**state, "scenario": scenario, "tol": tol, "sweep": integer("sweep", state["sweep"], 0)}
 
