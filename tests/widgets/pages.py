@@ -57,3 +57,8 @@ def state_now(page, number=0):
     """The same without waiting: the page is told that it is left, and saves what it has."""
     page.evaluate("dispatchEvent(new Event('pagehide'))")
     return state_of(page, number)
+
+
+def settled(page):
+    """Wait until what has just been done is drawn: a program draws in the next frame, and that may be late."""
+    page.evaluate("() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))")

@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 import rlnav as rl
 
 from .arena import Arena
-from .pages import state_now
+from .pages import settled, state_now
 
 RUN = ".rl-run-words"
 DAMAGED = [
@@ -79,11 +79,13 @@ def test_settings_that_cannot_be_are_refused_and_the_run_goes_on(simulator, kind
     page = simulator(seed=5).page
     learns(page)
     page.get_by_role("button", name="Pause", exact=True).click()
+    settled(page)
     before, words = state_now(page), page.locator(RUN).text_content()
     settings, named = STRANGE[kind]
     paste(page, settings if isinstance(settings, str) else json.dumps({"rlnav": 1, "scenario": settings, "view": {}}))
     expect(page.locator(".rl-fault, .rl-message").filter(has_text=named)).to_be_visible()
     assert state_now(page) == before
+    settled(page)
     assert page.locator(RUN).text_content() == words
     page.get_by_role("button", name="Go on", exact=True).click()
     expect(page.locator(RUN)).not_to_have_text(words)

@@ -11,6 +11,7 @@ import rlnav as rl
 from accessibility import findings
 
 from .arena import Arena
+from .pages import settled
 
 WIDTHS = pytest.mark.parametrize("width", ["desk", "telephone"])
 TUNNEL = "######\n#>...G\n######"
@@ -29,6 +30,12 @@ def opened(page_of):
 
 def progress(sim):
     return sim.element.locator(".rl-run-words")
+
+
+def taken(sim):
+    """Return how far the run has come, once it is drawn."""
+    settled(sim.page)
+    return progress(sim).text_content()
 
 
 def result(sim):
@@ -119,9 +126,9 @@ def test_a_button_that_is_held_goes_on(opened):
     sim.page.mouse.down()
     expect(progress(sim)).to_have_text(re.compile(r", ([6-9]|\d\d+) updates"))
     sim.page.mouse.up()
-    taken = progress(sim).text_content()
+    before = taken(sim)
     sim.page.evaluate("() => new Promise(resolve => setTimeout(resolve, 300))")
-    assert progress(sim).text_content() == taken
+    assert taken(sim) == before
 
 
 def test_pause_and_reset(opened):
@@ -129,9 +136,9 @@ def test_pause_and_reset(opened):
     sim.press("Train")
     sim.wait_for(r"Episode \d+ of 1,000, \d\d+ updates")
     sim.press("Pause")
-    taken = progress(sim).text_content()
+    before = taken(sim)
     sim.page.evaluate("() => new Promise(resolve => setTimeout(resolve, 200))")
-    assert progress(sim).text_content() == taken
+    assert taken(sim) == before
     sim.press("Reset")
     expect(progress(sim)).to_have_text("Untrained, 1,000 episodes to go")
 
@@ -172,7 +179,7 @@ def test_more_episodes_can_be_added(opened):
 def test_the_robot_is_driven_by_hand_and_learns_nothing_from_it(opened, width):
     sim = opened(rl.widgets.Simulator(rl.Task(rl.GridWorld.from_ascii(TUNNEL))), width=width)
     sim.press("Update")
-    before = progress(sim).text_content()
+    before = taken(sim)
     sim.press("Drive")
     ahead = sim.element.get_by_role("button", name="straight on")
     for _ in range(4):
@@ -182,7 +189,7 @@ def test_the_robot_is_driven_by_hand_and_learns_nothing_from_it(opened, width):
     sim.element.get_by_role("button", name="90° to the left").click()
     expect(sim.element.locator(".rl-drive-words")).to_have_text(re.compile("crash.*1 step,.*−10.00", re.IGNORECASE))
     sim.press("Stop driving")
-    assert progress(sim).text_content() == before
+    assert taken(sim) == before
 
 
 def test_arrow_keys_drive(opened):
@@ -318,7 +325,7 @@ def test_a_lecture_fills_the_screen_and_a_presenter_steps(opened):
     press("Escape")
     expect(sim.element).not_to_have_class(re.compile("rl-lecture"))
     press("Space")
-    assert "2 updates" in progress(sim).text_content()
+    assert "2 updates" in taken(sim)
 
 
 def test_a_link_shows_one_idea_only(opened):
