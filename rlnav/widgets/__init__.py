@@ -14,4 +14,12 @@ from ._one_update import OneUpdate
 from ._simulator import Simulator
 from ._value_wave import ValueWave
 
-__all__ = ["BackupDiagram", "Explorable", "Live", "LoopDebugger", "OneUpdate", "Simulator", "ValueWave"]
+__all__ = [
+    "BackupDiagram",
+    "Explorable",
+    "Live",
+    "LoopDebugger",
+    "OneUpdate",
+    "Simulator",
+    "ValueWave",
+]
