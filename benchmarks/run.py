@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+import controls
 import limits
 import peers
 import rlnav as rl
@@ -108,12 +109,22 @@ def book() -> Rows:
     from nbclient import NotebookClient
 
     yield "notebook", "seconds"
-    for path in sorted(BOOK.rglob("[!.]*.ipynb")):
-        if path.parent.name == ".ipynb_checkpoints":
-            continue
+    for path in notebooks():
         began = time.perf_counter()
         NotebookClient(nbformat.read(path, 4), resources={"metadata": {"path": str(path.parent)}}).execute()
         yield path.relative_to(BOOK), time.perf_counter() - began
+
+
+def waits() -> Rows:
+    """Measure what a reader waits for after moving a control of a chapter."""
+    yield "notebook", "controls", "control", "CPU ms, median", "most"
+    for path in notebooks():
+        yield from controls.rows(path)
+
+
+def notebooks() -> list[Path]:
+    """List the chapters that run."""
+    return [path for path in sorted(BOOK.rglob("[!.]*.ipynb")) if path.parent.name != ".ipynb_checkpoints"]
 
 
 def median(function: str, numba: bool, cache: str | None = None, times: int = 5) -> Any:
@@ -136,6 +147,7 @@ if __name__ == "__main__":
         "classroom": classroom,
         "import": imports,
         "book": book,
+        "controls": waits,
         "simulator": simulator.speed,
         "weight": simulator.weight,
     }
