@@ -59,6 +59,17 @@ def test_no_page_is_forgotten(book):
     assert set(PAGES) <= built
 
 
+@pytest.mark.parametrize("width", browsing.WIDTHS)
+def test_nothing_of_the_page_lies_over_a_lecture(browser, address, width):
+    with browsing.visit(browser, f"{address}book/18-simulator.html#lecture=1", width) as here:
+        here.page.locator(".rl-lecture").wait_for()
+        covered = here.page.evaluate("""() => [...document.querySelectorAll('.rl-lecture .rl-run button')].filter(button => {
+          const { x, y, width, height } = button.getBoundingClientRect();
+          return width && !button.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+        }).map(button => button.textContent)""")
+        assert covered == []
+
+
 @pytest.mark.parametrize("name", ["index", *CHAPTERS[:2], "book/18-simulator"])
 def test_a_page_opens_from_a_folder(browser, book, name):
     with browsing.visit(browser, (book / f"{name}.html").as_uri()) as here:
