@@ -51,6 +51,8 @@ def test_every_internal_link_leads_somewhere(browser, address, book):
     assert followed > 100, "hardly any link was followed: is the book empty?"
     for link in settings:  # the simulator takes them without a complaint
         with browsing.visit(browser, address + link) as here:
-            here.page.locator(".rlnav-explorable.is-live").first.wait_for(state="attached")  # in a lecture it has no size
+            here.page.locator(".rlnav-explorable.is-live").first.wait_for(
+                state="attached"
+            )  # in a lecture it has no size
             assert here.page.locator(".rl-message").all_text_contents() == []
             assert here.complaints == []

@@ -27,6 +27,10 @@ EXPLORABLES_ARE_LIVE = """() => {
   next ? next.scrollIntoView() : scrollTo(0, 0); // they start when the reader comes near
   return !next;
 }"""
+COVERED_BUTTONS = """() => [...document.querySelectorAll('.rl-lecture .rl-run button')].filter(button => {
+  const { x, y, width, height } = button.getBoundingClientRect();
+  return width && !button.contains(document.elementFromPoint(x + width / 2, y + height / 2));
+}).map(button => button.textContent)"""
 LOOKS_LIKE_A_PATH = re.compile(r"^(\.*/|_images|data:|\S+/\S+$)|\.(png|svg|jpe?g|gif)$")
 
 
@@ -63,10 +67,7 @@ def test_no_page_is_forgotten(book):
 def test_nothing_of_the_page_lies_over_a_lecture(browser, address, width):
     with browsing.visit(browser, f"{address}book/18-simulator.html#lecture=1", width) as here:
         here.page.locator(".rl-lecture").wait_for()
-        covered = here.page.evaluate("""() => [...document.querySelectorAll('.rl-lecture .rl-run button')].filter(button => {
-          const { x, y, width, height } = button.getBoundingClientRect();
-          return width && !button.contains(document.elementFromPoint(x + width / 2, y + height / 2));
-        }).map(button => button.textContent)""")
+        covered = here.page.evaluate(COVERED_BUTTONS)
         assert covered == []
 
 
