@@ -1,5 +1,6 @@
 """Every chapter, as it is stored, keeps the rules of the book; and every rule notices when it is broken."""
 
+import re
 from pathlib import Path
 
 import nbformat
@@ -80,3 +81,13 @@ KEPT = [
 def test_a_rule_notices_when_it_is_broken(rule):
     assert all(list(rule(broken)) for broken in BROKEN[rule.__name__])
     assert [list(rule(kept)) for kept in KEPT] == [[], [], [], []]
+
+
+def test_instructors_are_told_the_minutes_that_the_chapters_name():
+    told = dict(re.findall(r"\]\(([\w-]+)\.ipynb\) \| (\d+) \|", (ROOT / "book/instructors.md").read_text("utf-8")))
+    named = {}
+    for path in CHAPTERS:
+        text = "\n".join(cell.source for cell in read(path).cells if cell.cell_type == "markdown")
+        if minutes := re.search(r"\*\*Time\*\* (\d+) minutes", text):
+            named[path.stem] = minutes[1]
+    assert told == named
