@@ -1,4 +1,4 @@
-"""Every chapter of the built book has an explorable, which does something there and can fill the screen in a lecture."""
+"""Every chapter of the built book has an explorable: it does something there, and can fill the screen in a lecture."""
 
 import re
 
