@@ -142,9 +142,7 @@ class MysteryRobot(Explorable):
         """What the still picture shows."""
         if self.state["revealed"]:
             return "The hidden map with the goal, the best of the drives so far, and an optimal drive."
-        return (
-            "A grid of seven by seven cells, full of question marks but for the robot and the cells that it has seen."
-        )
+        return "A grid of seven by seven cells with question marks, but for the robot and the cells that it has seen."
 
     def still(self) -> Any:
         """Draw what the reader knows, or everything."""
@@ -213,7 +211,8 @@ def replay(state: dict[str, Any]) -> list[Episode]:
 def _drive(hidden: Hidden, chance: np.random.Generator, letters: str, max_steps: int, number: int) -> Episode:
     mdp = hidden.task.mdp()
     model = arrays(mdp)
-    states, rewards = [int(mdp.start[0])], []
+    states = [int(mdp.start[0])]
+    rewards: list[float] = []
     actions = [hidden.turns[BUTTONS.index(letter)] for letter in letters]
     for a in actions:
         if mdp.terminal[states[-1]] or len(rewards) == max_steps:

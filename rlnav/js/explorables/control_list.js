@@ -6,16 +6,16 @@ import { button } from "../views/controls.js";
 import { h } from "../views/dom.js";
 
 const ABOUT = {
-  step: ["One step", "goes on by one step. A strong color marks the button to begin with."],
-  back: ["Back", "takes the last step back. Look twice: nothing is lost."],
-  play: ["Play", "runs by itself. The same button makes a pause."],
+  step: ["One step", "one step forward. The button in color is the one to begin with."],
+  back: ["Back", "one step back. Look twice: nothing is lost."],
+  play: ["Play", "by itself to the end. The same button makes a pause."],
   slider: ["Slider", "drag it, or press the arrow keys. Home and End go to its ends."],
-  number: ["Number", "stands beside each slider. Type another one and press Enter; try one that cannot be."],
-  menu: ["Menu", "offers a few choices. With the keyboard: arrow keys."],
-  box: ["Box", "switches something on or off. With the keyboard: space bar."],
-  map: ["Map", "click or touch a cell: the robot is put there. Once more: it turns. Keys: arrows, Enter, R."],
-  again: ["Start again", "brings the settings of the page back. In this figure the ticks stay."],
-  lecture: ["Lecture view", "fills the screen in large type. Escape leaves it."],
+  number: ["Number", "type another one beside the slider and press Enter. Try 99 as well."],
+  menu: ["Menu", "one of a few choices. Arrow keys work too."],
+  box: ["Box", "on or off. The space bar works too."],
+  map: ["Map", "click or touch a cell to put the robot there, and again to turn it. Keys: arrows, Enter, R."],
+  again: ["Start again", "back to the settings of the page. The ticks stay, in this figure."],
+  lecture: ["Lecture view", "large type on the whole screen. Escape leaves it."],
 };
 
 export class ControlList {
@@ -45,5 +45,5 @@ export class ControlList {
 /** One line; the tick itself is drawn by the style, and told in words. */
 function item(name, words) {
   const mark = h("span", { class: "rl-hidden" });
-  return { mark, element: h("li", {}, mark, h("b", {}, name), ` ${words}`) };
+  return { mark, element: h("li", {}, mark, h("b", {}, `${name}:`), ` ${words}`) };
 }

@@ -12,6 +12,7 @@ import { frame } from "./frame.js";
 import { poseInWords, turnInWords } from "./naming.js";
 
 const PACE = 3; // steps a second
+const EVERYTHING = "You have tried everything: you can work every figure of this book.";
 
 /** Build the figure on a stage. */
 export function start(stage) {
@@ -232,7 +233,7 @@ class ControlTour {
     const here = this.poses[this.steps];
     const { world } = this.task;
     const steps = `${this.steps} ${this.steps === 1 ? "step" : "steps"}`;
-    const all = tried.length === KINDS.length ? " You have tried everything: you can work every figure of this book." : "";
+    const all = tried.length === KINDS.length ? ` ${EVERYTHING}` : "";
     if (here.crashed) return `After ${steps} the robot has crashed. Another turn, or another place to begin?${all}`;
     if (world.isGoal(here.x, here.y)) {
       return `The star, after ${steps}: ${turnInWords(turn)} in every step, from cell (${pose[0]}, ${pose[1]}).${all}`;
