@@ -120,7 +120,7 @@ def test_a_press_tells_what_an_agent_gets_and_no_more(page_of):
         ["C", "−0.1", "(2, 5) ↑"],
         ["A", "−0.1", "(2, 6) ↗"],
     ]
-    assert here.page.locator(".rl-gauges dd").all_inner_texts() == ["1", "2 of 30", "−0.2"]
+    assert here.page.locator(".rl-gauges b").all_inner_texts() == ["1", "2 of 30", "−0.2"]
     expect(here.page.locator(".rl-truth")).to_be_hidden()
 
 

@@ -30,15 +30,14 @@ export class Card {
 /** Drive, step and score, in large type. */
 export class Gauges {
   constructor(parent) {
-    this.values = [h("dd", {}), h("dd", {}), h("dd", {})];
-    const names = ["Drive", "Step", "Score"];
-    const pairs = names.map((name, i) => h("div", {}, h("dt", {}, name), this.values[i]));
-    parent.append(h("dl", { class: "rl-gauges" }, pairs));
+    this.values = ["Drive", "Step", "Score"].map((name) => [name, h("b", {})]);
+    const boxes = this.values.map(([name, value]) => h("p", {}, h("span", {}, `${name} `), value));
+    parent.append(h("div", { class: "rl-gauges" }, boxes));
   }
 
   draw({ drives, drive, maxSteps }) {
     const texts = [`${drives.length}`, `${drive.rewards.length} of ${maxSteps}`, scoreText(drive.score)];
-    texts.forEach((text, i) => (this.values[i].textContent = text));
+    texts.forEach((text, i) => (this.values[i][1].textContent = text));
   }
 }
 

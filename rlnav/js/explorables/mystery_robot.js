@@ -12,6 +12,7 @@ import { Card, Gauges, Log, Scores } from "./mystery_board.js";
 import { buttonsInWords, noteOf, sentence, truth } from "./mystery_words.js";
 import { turnInWords } from "./naming.js";
 
+const TALLEST = 0.58; // of the map, in parts of the window
 const SLIDE = 220; // milliseconds from cell to cell
 const LEVELS = [["free", "Free space"], ["obstacles", "Obstacles"], ["slip", "Obstacles and slips"]];
 const VIEWS = [["map", "A map"], ["numbers", "Only numbers"]];
@@ -83,11 +84,11 @@ class MysteryRobot {
     this.seed = number({
       label: "Mystery number", min: 0, max: MOST, step: 1, value: 0, onChange: (seed) => this.mystify({ seed }),
     });
-    const settings = [this.level, this.see, this.seed].map(({ element }) => element);
-    const row = h("div", { class: "rl-mystery-settings" }, settings);
+    const hidden = h("div", { class: "rl-mystery-tools" }, tools.element, this.seed.element);
+    const row = h("div", { class: "rl-mystery-settings" }, this.level.element, this.see.element);
     const help = "Keys: A to E, or 1 to 5, press the buttons; N begins the next drive. " +
       "The same number and level hide the same things from everybody.";
-    return h("div", { class: "rl-column" }, tools.element, row, h("p", { class: "rl-help", text: help }));
+    return h("div", { class: "rl-column" }, hidden, row, h("p", { class: "rl-help", text: help }));
   }
 
   get following() {
@@ -221,6 +222,7 @@ class MysteryRobot {
     const fog = revealed ? [] : unknown(seen, map.colors.muted);
     const compared = revealed && (mystery.over || !mystery.drive.letters);
     const { path, robot } = this.way(compared, at);
+    map.maxHeight = Math.max(TALLEST * innerHeight, 260); // the buttons below it should be in view as well
     map.draw({
       width: SIDE,
       height: SIDE,
