@@ -67,14 +67,16 @@ def world(task: Task | GridWorld, ax: Axes | None = None) -> Axes:
     return ax
 
 
-def ground(place: GridWorld, ax: Axes | None, right: float = 0.1) -> Axes:
-    """Return axes with the map on them; new ones leave `right` inches free beside it."""
+def ground(place: GridWorld, ax: Axes | None, right: float = 0.1, *, goal: bool = True) -> Axes:
+    """Return axes with the map on them, perhaps without its goal; new ones leave `right` inches free beside it."""
     if ax is None:
         cell = min(0.7, 5.0 / place.width, 3.9 / place.height)
         ax = _new_axes(place.width * cell, place.height * cell, left=0.6, bottom=0.55, right=right, top=0.32)
     _check.instance("ax", ax, Axes)
     if not any(patch.get_label() == GROUND for patch in ax.patches):
         _draw_floor(ax, place)
+        if goal:
+            _draw_goal(ax, place)
         _draw_frame(ax, place)
     return ax
 
@@ -115,6 +117,9 @@ def _draw_floor(ax: Axes, place: GridWorld) -> None:
     outline = Rectangle((-0.5, -0.5), w, h, fill=False, edgecolor=WALL, linewidth=2.5, joinstyle="round", zorder=2)
     outline.set_clip_on(False)
     ax.add_patch(outline)
+
+
+def _draw_goal(ax: Axes, place: GridWorld) -> None:
     star = turned(Path.unit_regular_star(5, 0.45), *place.goal, size=0.4)
     ax.add_patch(PathPatch(star, facecolor=STAR, edgecolor=INK, linewidth=0.8, joinstyle="round", zorder=3))
 

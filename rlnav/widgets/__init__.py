@@ -7,18 +7,22 @@ except ImportError as missing:
     raise ImportError("`rlnav.widgets` needs anywidget. Install it with: pip install 'rlnav[widgets]'") from missing
 
 from ._backup_diagram import BackupDiagram
+from ._control_tour import ControlTour
 from ._explorable import Explorable
 from ._live import Live
 from ._loop_debugger import LoopDebugger
+from ._mystery_robot import MysteryRobot
 from ._one_update import OneUpdate
 from ._simulator import Simulator
 from ._value_wave import ValueWave
 
 __all__ = [
     "BackupDiagram",
+    "ControlTour",
     "Explorable",
     "Live",
     "LoopDebugger",
+    "MysteryRobot",
     "OneUpdate",
     "Simulator",
     "ValueWave",
