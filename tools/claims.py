@@ -32,13 +32,13 @@ LEFT_OUT = [
     re.compile(r"<[^>]*>"),
     re.compile(r"^#.*$", re.M),
     re.compile(r"\*\*Time\*\* \d+ minutes"),
-    re.compile(r"\bchapters? \d+(?:(?:,| and| to) \d+)*"),  # of books, this one and others
-    re.compile(r"\b(?:sections?|examples?|figures?|pages?|tables?) \d[\d.]*", re.I),
+    re.compile(r"\b(?:chapter|section|example|figure|page|table)s? [\d.]+(?:(?:,|,? and|,? or| to) [\d.]+)*", re.I),
     re.compile(r"\(\d+(?:\.\d+)*\)"),
 ]
 NUMBER = re.compile(r"(?<![\w.,])[-−+]?\d+(?:,\d{3})*(?:\.\d+)?(?!\w|\.\d)")
 FEW = 20  # whole numbers up to this count what is on the page
-WORLD = {"0.1", "0.95", "45", "90", "135", "180", "225", "270", "315", "360", "100"}  # the robot's own; percent
+WORLD = {"0.1", "0.95", "45", "90", "135", "180", "225", "270", "315", "360"}  # the robot's own
+PERCENT = {"95", "100"}  # the confidence of all intervals, and all
 
 
 @dataclass(frozen=True)
@@ -59,7 +59,7 @@ def claims(notebook: NotebookNode) -> Iterator[Claim]:
         if cell.cell_type != "markdown":
             continue
         for found in GLUED.finditer(cell.source):
-            home = next((n for n, code in cells if re.search(rf"glue\(\s*[\"']{found[1]}[\"']", code.source)), None)
+            home = next((n for n, code in cells if found[1] in glued(code)), None)
             yield Claim(found[0], around(cell.source, found), home, "glue")
         text, solving = outside_of_solutions(cell.source, solving)
         for pattern in LEFT_OUT:
@@ -67,6 +67,13 @@ def claims(notebook: NotebookNode) -> Iterator[Claim]:
         for found in NUMBER.finditer(text):
             if counts(found[0]):
                 yield Claim(found[0], around(text, found), *source_of(found[0], cells))
+
+
+def glued(cell: NotebookNode) -> set[str]:
+    """Return the names under which a cell has passed numbers on to the text."""
+    return {
+        output.metadata["scrapbook"]["name"] for output in cell.outputs if "scrapbook" in output.get("metadata", {})
+    }
 
 
 def outside_of_solutions(text: str, solving: bool) -> tuple[str, bool]:
@@ -83,7 +90,7 @@ def outside_of_solutions(text: str, solving: bool) -> tuple[str, bool]:
 def counts(number: str) -> bool:
     """Tell whether a number is one that a run could change."""
     plain = number.replace("−", "-").replace(",", "").lstrip("+-")
-    return plain not in WORLD and not ("." not in plain and (int(plain) <= FEW or 1900 <= int(plain) <= 2100))
+    return plain not in WORLD | PERCENT and not ("." not in plain and (int(plain) <= FEW or 1900 <= int(plain) <= 2100))
 
 
 def source_of(number: str, cells: list[tuple[int, NotebookNode]]) -> tuple[int | None, str]:

@@ -15,9 +15,12 @@ def test_every_number_in_the_text_comes_from_a_cell(path):
     assert lost == [], "pass it on by `glue`, or print it"
 
 
-def chapter(text, source="success = 0.83\nprint(success)", printed="0.83\n"):
-    output = nbformat.v4.new_output("stream", text=printed)
-    code = nbformat.v4.new_code_cell(source, outputs=[output], execution_count=1)
+def chapter(text, source="success = 0.83\nprint(success)", printed="0.83\n", passed_on=()):
+    outputs = [nbformat.v4.new_output("stream", text=printed)]
+    for name in passed_on:
+        metadata = {"scrapbook": {"mime_prefix": "application/papermill.record/", "name": name}}
+        outputs.append(nbformat.v4.new_output("display_data", {}, metadata=metadata))
+    code = nbformat.v4.new_code_cell(source, outputs=outputs, execution_count=1)
     return nbformat.v4.new_notebook(cells=[nbformat.v4.new_markdown_cell(text), code])
 
 
@@ -31,11 +34,17 @@ def test_a_number_from_nowhere_is_noticed(text):
     [
         ("It succeeds in 0.83 of all drives.", "print(success)"),
         ("After 1,234 updates", "updates = 1_234"),
-        ("{glue:text}`share:.2f` of all drives", "glue('share', success)"),
     ],
 )
 def test_a_number_is_found_in_its_cell(text, source):
     assert [claim.cell for claim in claims(chapter(text, source))] == [1]
+
+
+def test_a_number_that_is_passed_on_is_found_by_its_name():
+    text = "{glue:text}`share-0:.2f` of all drives"
+    assert [claim.cell for claim in claims(chapter(text, "glue(f'share-{slip}', success)", passed_on=["share-0"]))] == [
+        1
+    ]
 
 
 @pytest.mark.parametrize(
