@@ -7,6 +7,7 @@ except ImportError as missing:
     raise ImportError("`rlnav.widgets` needs anywidget. Install it with: pip install 'rlnav[widgets]'") from missing
 
 from ._backup_diagram import BackupDiagram
+from ._contraction import Contraction
 from ._explorable import Explorable
 from ._live import Live
 from ._loop_debugger import LoopDebugger
@@ -16,6 +17,7 @@ from ._value_wave import ValueWave
 
 __all__ = [
     "BackupDiagram",
+    "Contraction",
     "Explorable",
     "Live",
     "LoopDebugger",
