@@ -422,6 +422,14 @@ def test_a_backup_diagram_has_open_states_filled_actions_and_an_arc_for_each_max
     assert sum(len(line.get_xdata()) > 2 for line in ax.lines) == arcs
 
 
+def test_half_of_an_equation_is_a_diagram_of_one_level():
+    half = rl.plot.backup_diagram("v_pi", numbers=(None, [(None, None), (None, None)]))
+    assert "$a$" in texts(half)
+    assert r"$s^\prime$" not in texts(half)
+    assert r"$p,\ r$" not in texts(half)
+    assert np.diff(half.get_ylim()) < np.diff(rl.plot.backup_diagram("v_pi").get_ylim())
+
+
 def test_numbers_are_written_into_a_backup_diagram_and_the_best_branches_stand_out():
     tree = (3, [("left", 1, []), ("ahead", 3, [(0.5, 2), (0.5, 4)]), ("right", 3.0, [])])
     ax = rl.plot.backup_diagram("v_star", numbers=tree)

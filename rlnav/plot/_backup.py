@@ -79,8 +79,8 @@ def backup_diagram(kind: str, ax: Axes | None = None, *, numbers: Sequence[Any] 
         Where to draw; new axes by default.
     numbers : tree, optional
         What to write: (value, branches) for the root, where each branch is (edge, value) or (edge, value, branches).
-        Values and edges are numbers, texts or None.  Its shape replaces that of the textbook.  Below "max", the branch
-        with the largest value is drawn in color.
+        Values and edges are numbers, texts or None.  Its shape replaces that of the textbook; a tree of one level shows
+        half of the equation.  Below "max", the branch with the largest value is drawn in color.
 
     Returns
     -------
@@ -103,14 +103,15 @@ def backup_diagram(kind: str, ax: Axes | None = None, *, numbers: Sequence[Any] 
     text = max(len(line) for node in root for line in _text(node.edge).split("\n"))  # the longest beside a branch
     width = _place(root, 0.6 + 0.045 * text)
     left = MARGIN + 0.07 * text
-    ax = axes(ax, left + width + 0.7, 2 * HIGH + 0.75)
-    ax.set(xlim=(-left, width + 0.7), ylim=(-2 * HIGH - 0.45, 0.3), aspect="equal")
+    depth = max(node.level for node in root)
+    ax = axes(ax, left + width + 0.7, depth * HIGH + 0.75)
+    ax.set(xlim=(-left, width + 0.7), ylim=(-depth * HIGH - 0.45, 0.3), aspect="equal")
     ax.axis("off")
     states = 0 if shape.levels is STATE_FIRST else 1
     for node in root:
         _draw_branches(ax, node, best=node.level < 2 and shape.edges[node.level] == BEST)
         _draw_node(ax, node, is_state=node.level % 2 == states)
-    _draw_words(ax, root, shape, -left + 0.45)
+    _draw_words(ax, root, shape, -left + 0.45, depth)
     return ax
 
 
@@ -178,13 +179,13 @@ def _draw_node(ax: Axes, node: Node, is_state: bool) -> None:
         ax.text(node.x, node.y - 0.16, _text(node.value), ha="center", va="top", size=TEXT, color=INK)
 
 
-def _draw_words(ax: Axes, root: Node, shape: Kind, x: float) -> None:
-    """Write what the root is worth beside it, and at the left what levels and lines are."""
+def _draw_words(ax: Axes, root: Node, shape: Kind, x: float, depth: int) -> None:
+    """Write what the root is worth beside it, and at the left what levels and lines are, as deep as the tree goes."""
     worth = shape.worth if root.value is None else f"{shape.worth} = {_text(root.value)}"
     ax.text(root.x + 0.2, root.y, worth, ha="left", va="center", size=TEXT + 1, color=INK)
-    for level, name in enumerate(shape.levels):
+    for level, name in enumerate(shape.levels[: depth + 1]):
         ax.text(x, -HIGH * level, name, ha="right", va="center", size=TEXT, color=INK)
-    for level, name in enumerate(shape.edges):
+    for level, name in enumerate(shape.edges[:depth]):
         ax.text(x, -HIGH * (level + 0.5), name, ha="right", va="center", size=SMALL, color=MUTED)
 
 

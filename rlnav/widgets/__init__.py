@@ -7,6 +7,7 @@ except ImportError as missing:
     raise ImportError("`rlnav.widgets` needs anywidget. Install it with: pip install 'rlnav[widgets]'") from missing
 
 from ._backup_diagram import BackupDiagram
+from ._contraction import Contraction
 from ._control_tour import ControlTour
 from ._explorable import Explorable
 from ._live import Live
@@ -18,6 +19,7 @@ from ._value_wave import ValueWave
 
 __all__ = [
     "BackupDiagram",
+    "Contraction",
     "ControlTour",
     "Explorable",
     "Live",

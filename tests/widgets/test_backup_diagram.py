@@ -212,7 +212,7 @@ def test_pointing_at_a_node_fills_its_formula(page_of):
     here = page_of(BackupDiagram(TASK, HERE))
     Q = values_in_python(TASK, "random", 0)[1][TASK.index(HERE)]
     assert formula(here)[0] == "vπ(s) = Σa π(a | s) qπ(s, a)"
-    assert numbers(formula(here)[1])[1:-1:2] == pytest.approx(Q, abs=6e-4)
+    assert numbers(formula(here)[1])[1:-1:2] == pytest.approx(Q[::-1], abs=6e-4)  # left turns first, as drawn
     here.page.mouse.move(*middle(node(here, 3)))
     assert formula(here)[0] == "qπ(s, a) = Σs′, r p(s′, r | s, a) [ r + γ vπ(s′) ]"
     terms = numbers(formula(here)[1])

@@ -54,6 +54,8 @@ class BackupDiagram {
     this.diagram = new DiagramView(tree, {
       label: "Backup diagram", onPick: (node) => this.pick(node.id), onOpen: (node) => this.walkTo(node),
     });
+    const hint = "Point at a circle or a dot, or tap it: its number is explained. Choose it again to go there.";
+    tree.append(h("p", { class: "rl-help", text: hint }));
     this.formula = h("div", { class: "rl-formulas" });
     this.go = button({ label: "Go to this pose", icon: "step", onClick: () => this.walkTo(this.nodeOf(this.picked)) });
     tell.append(this.frame.answer, this.formula, this.go.element);
@@ -255,7 +257,8 @@ class BackupDiagram {
     const parent = up ? this.nodeOf(up) : null;
     this.frame.say(sentenceOf(node, parent, this.task));
     const secret = this.hides(node.id) || (parent !== null && this.hides(parent.id));
-    this.formula.replaceChildren(...formula(node, parent, this.options, secret));
+    const ordered = { ...node, children: this.fromLeft(node) }; // as they stand in the diagram
+    this.formula.replaceChildren(...formula(ordered, parent, this.options, secret));
     const goes = node.kind === "state" && !node.terminal && node.id !== "0";
     const why = node.terminal ? "The episode is over there." : "Pick a next state in the diagram first.";
     this.go.disabled(goes ? "" : why);

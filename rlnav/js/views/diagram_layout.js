@@ -85,7 +85,7 @@ export function placesOnBranch(from, to, tall) {
 
 /** Return places beside a node. */
 export function placesAtNode({ x, y, radius }, tall) {
-  const [away, middle] = [radius + 7, y + 0.32 * tall];
+  const [away, middle] = [radius + 10, y + 0.32 * tall];
   return [
     { x: x + away, y: middle, anchor: "start" },
     { x: x - away, y: middle, anchor: "end" },
