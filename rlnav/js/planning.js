@@ -6,7 +6,7 @@
  */
 import { fail, instance, integer, number } from "./check.js";
 import { actionValues, greedy, MDP, TIE } from "./mdp.js";
-import { firstBest, largest } from "./sampling.js";
+import { largest } from "./sampling.js";
 import { finish } from "./slices.js";
 
 const EVALUATIONS = 10; // policy sweeps of `solve` between two greedy ones, at most
@@ -41,7 +41,8 @@ export function improve(mdp, pi, V) {
   const Q = actionValues(mdp, V);
   const margin = TIE * V.reduce((most, v) => Math.max(most, Math.abs(v)), 1);
   const better = Uint8Array.from(pi, (a, s) => (largest(Q, s, mdp.A) - Q[s * mdp.A + a] > margin ? 1 : 0));
-  return { pi: Int32Array.from(pi, (a, s) => (better[s] ? firstBest(Q, s, mdp.A) : a)), better };
+  const best = greedy(Q, mdp.A);
+  return { pi: Int32Array.from(pi, (a, s) => (better[s] ? best[s] : a)), better };
 }
 
 /**

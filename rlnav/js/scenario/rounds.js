@@ -43,6 +43,8 @@ export class Truth {
  * then, and `work` the products of numbers so far.
  */
 export class Rounds {
+  #errors = new WeakMap(); // of the steps that were asked for
+
   constructor(mdp, pi, tol, truth = new Truth(mdp)) {
     this.mdp = mdp;
     this.tol = number("tol", tol, 0, Infinity, { above: true });
@@ -129,12 +131,21 @@ export class Rounds {
 
   /** How far the values of step k are from v_pi of its policy. */
   offPolicy(k) {
-    return distance(this.steps[k].V, this.truth.of(this.steps[k].pi));
+    return this.#errorsOf(this.steps[k]).offPolicy;
   }
 
   /** How far the values of step k are from v_*. */
   offBest(k) {
-    return distance(this.steps[k].V, this.truth.star);
+    return this.#errorsOf(this.steps[k]).offBest;
+  }
+
+  #errorsOf(step) {
+    const { truth } = this;
+    if (!this.#errors.has(step)) {
+      const offPolicy = distance(step.V, truth.of(step.pi));
+      this.#errors.set(step, { offPolicy, offBest: distance(step.V, truth.star) });
+    }
+    return this.#errors.get(step);
   }
 
   /** How much the policy of step k falls short of the best one, where that is most. */
