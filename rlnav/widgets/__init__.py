@@ -13,6 +13,7 @@ from ._loop_debugger import LoopDebugger
 from ._one_update import OneUpdate
 from ._policy_iteration import PolicyIteration
 from ._simulator import Simulator
+from ._steering_bandit import SteeringBandit
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -23,5 +24,6 @@ __all__ = [
     "OneUpdate",
     "PolicyIteration",
     "Simulator",
+    "SteeringBandit",
     "ValueWave",
 ]
