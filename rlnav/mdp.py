@@ -168,7 +168,9 @@ def greedy(Q: ArrayLike) -> NDArray[np.int64]:
 
 
 def epsilon_greedy(Q: ArrayLike, epsilon: float) -> NDArray[np.float64]:
-    """Give the probabilities pi(a | z) of the epsilon-greedy policy of a table.
+    """Give the probabilities pi(a | z) of the epsilon-greedy policy of a table, eq. :eq:`eq-epsilon-greedy`.
+
+    Of equally good actions the first has the greedy share, as in `greedy`; learners share it by chance.
 
     Parameters
     ----------

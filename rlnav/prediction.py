@@ -16,9 +16,9 @@ MOST_SWEEPS = 1_000_000
 def evaluate_policy(mdp: MDP, pi: ArrayLike) -> NDArray[np.float64]:
     """Find the values of a policy: the solution of eq. :eq:`eq-linear-system`, v = r_pi + gamma P_pi v.
 
-    The expectation backup is repeated until its contraction bounds the error by 1e-10 times the largest value.  Beyond
-    gamma = 0.999, where this would take long, a system of up to 4000 states is solved directly; a larger one is swept
-    until the bound for gamma = 0.999 holds, and its error may be larger.
+    The expectation backup, eq. :eq:`eq-policy-evaluation`, is repeated until its contraction bounds the error by 1e-10
+    times the largest value.  Beyond gamma = 0.999, where this would take long, a system of up to 4000 states is solved
+    directly; a larger one is swept until the bound for gamma = 0.999 holds, and its error may be larger.
 
     Parameters
     ----------

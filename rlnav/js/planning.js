@@ -1,10 +1,11 @@
 /**
  * Planning: from the model p(s', r | s, a) to values and an optimal policy.
- * Mirrors rlnav/planning.py: value_iteration (eq-value-iteration) and solve.  For gamma < 1, when a sweep changes no
- * value by more than `tol`, every value is within gamma / (1 - gamma) * tol of the fixed point.
+ * Mirrors rlnav/planning.py: value_iteration (eq-value-iteration), solve, and the improvement of policy_iteration.
+ * For gamma < 1, when a sweep changes no value by more than `tol`, every value is within gamma / (1 - gamma) * tol of
+ * the fixed point.
  */
 import { fail, instance, integer, number } from "./check.js";
-import { actionValues, greedy, MDP } from "./mdp.js";
+import { actionValues, greedy, MDP, TIE } from "./mdp.js";
 import { largest } from "./sampling.js";
 import { finish } from "./slices.js";
 
@@ -30,6 +31,18 @@ export function valueIteration(mdp, { tol = 1e-8, maxSweeps = null } = {}) {
 export function bestValues(mdp, V) {
   const Q = actionValues(mdp, V);
   return Float64Array.from({ length: mdp.S }, (_, s) => largest(Q, s, mdp.A));
+}
+
+/**
+ * Improve a policy by one look-ahead from V (eq-policy-improvement), as in every round of Python's policy_iteration at
+ * gamma < 1: an action gives way to a strictly better one only. `better` flags the states in which it did.
+ */
+export function improve(mdp, pi, V) {
+  const Q = actionValues(mdp, V);
+  const margin = TIE * V.reduce((most, v) => Math.max(most, Math.abs(v)), 1);
+  const better = Uint8Array.from(pi, (a, s) => (largest(Q, s, mdp.A) - Q[s * mdp.A + a] > margin ? 1 : 0));
+  const best = greedy(Q, mdp.A);
+  return { pi: Int32Array.from(pi, (a, s) => (better[s] ? best[s] : a)), better };
 }
 
 /**

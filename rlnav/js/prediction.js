@@ -32,8 +32,8 @@ export function* evaluatingPolicy(mdp, pi) {
   return fail("pi", "a policy whose episodes end sooner", `values that move after ${MOST_EXPECTATIONS} sweeps`);
 }
 
-/** Write r + gamma P V into `following`; return the largest change and the largest value. */
-function expectationSweep({ N, nextState, prob, r }, gamma, V, following) {
+/** One sweep (eq-policy-evaluation): write r + gamma P V into `following`; return the largest change and value. */
+export function expectationSweep({ N, nextState, prob, r }, gamma, V, following) {
   let change = 0;
   let size = 0;
   for (let s = 0; s < V.length; s++) {

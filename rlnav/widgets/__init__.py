@@ -14,7 +14,9 @@ from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._mystery_robot import MysteryRobot
 from ._one_update import OneUpdate
+from ._policy_iteration import PolicyIteration
 from ._simulator import Simulator
+from ._steering_bandit import SteeringBandit
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -26,6 +28,8 @@ __all__ = [
     "LoopDebugger",
     "MysteryRobot",
     "OneUpdate",
+    "PolicyIteration",
     "Simulator",
+    "SteeringBandit",
     "ValueWave",
 ]
