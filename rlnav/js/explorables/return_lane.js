@@ -25,8 +25,8 @@ export class ReturnLane {
     this.over = svg("text", { class: "rl-bar-over", text: steps < columns ? "Over: nothing follows." : "" });
     const bars = this.bars.map(({ g }) => g);
     this.svg = svg("svg", { role: "group", "aria-labelledby": title.id }, this.zero, this.over, bars);
-    this.cells = Array.from({ length: steps }, (_, t) => h("li", {}, h("span", { class: "rl-lane-name" }, timed("G", t))));
-    for (const cell of this.cells) cell.append(h("data", { class: "rl-lane-value" }));
+    this.cells = Array.from({ length: steps }, (_, t) =>
+      h("li", {}, h("span", { class: "rl-lane-name" }, timed("G", t)), h("data", {})));
     const list = h("ol", { class: "rl-lane-returns", "aria-label": "Returns" }, this.cells);
     this.formula = h("p", { class: "rl-lane-formula" });
     this.strip = h("div", { class: "rl-lane-strip" }, this.svg, list);
@@ -137,10 +137,12 @@ export class ReturnLane {
     }
     set(this.zero, { x1: 0, x2: width * this.steps, y1: at(0), y2: at(0) });
     set(this.over, { x: width * this.steps + 0.5 * em, y: at(0) + 0.3 * em });
-    this.data.rewards.forEach((r, t) => this.layBar(this.bars[t], r, this.data.shares[t], (t + 0.5) * width, width, at, em));
+    this.bars.forEach((bar, t) => this.layBar(bar, t, { width, at, em }));
   }
 
-  layBar(bar, r, share, middle, width, at, em) {
+  layBar(bar, t, { width, at, em }) {
+    const [r, share] = [this.data.rewards[t], this.data.shares[t]];
+    const middle = (t + 0.5) * width;
     const wide = Math.min(0.5 * width, 2.4 * em);
     const box = (v) => ({ x: middle - wide / 2, width: wide, y: at(Math.max(v, 0)), height: Math.abs(at(v) - at(0)) });
     set(bar.whole, box(r));
@@ -175,7 +177,8 @@ function formulaOf({ rewards, G, gamma }, t) {
   const [now, next] = [timed("G", t), timed("G", t + 1)];
   const [r, worth] = [written(rewards[t], 2), written(G[t], 3)];
   if (t === rewards.length - 1) return `${now} = ${timed("R", t + 1)} = ${worth}: nothing follows.`;
-  return `${now} = ${timed("R", t + 1)} + γ ${next} = ${r} + ${written(gamma, 3)} · ${bracketed(G[t + 1])} = ${worth}`;
+  const sum = `${r} + ${written(gamma, 3)} · ${bracketed(G[t + 1])}`;
+  return `${now} = ${timed("R", t + 1)} + γ ${next} = ${sum} = ${worth}`;
 }
 
 function bracketed(value) {

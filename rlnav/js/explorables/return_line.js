@@ -186,7 +186,8 @@ function pathOf({ poses, crashed }) {
 function sentence({ ways, gamma, known }, best) {
   const last = endOf(ways);
   if (known === last) {
-    return `Nothing is added up yet. Begin at the end, where nothing follows: ${timed("G", last - 1)} = ${timed("R", last)}.`;
+    const begin = `${timed("G", last - 1)} = ${timed("R", last)}`;
+    return `Nothing is added up yet. Begin at the end, where nothing follows: ${begin}.`;
   }
   const worth = ways.map((way) => ({ name: way.name, steps: way.rewards.length, G: seen(way, gamma, known).G }));
   const told = ({ name, G }) => `the ${name} is worth ${written(G[known], 3)}`;
