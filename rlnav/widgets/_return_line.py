@@ -114,14 +114,14 @@ def _way(name: str, way: Any, task: Task | None) -> dict[str, Any]:
         if task is not None:
             fail("ways", "episodes, for a map is to show them", show(way), "Leave `task` out to compare rewards.")
         return {"name": name, "rewards": list(way), "poses": None, "crashed": False}
-    poses, crashed = None, False
-    if task is not None:
-        poses = [task.pose(int(s)) for s in way.states]
-        crashed = poses[-1] is None
-        if crashed:
-            poses[-1] = task.robot.move(poses[-2], task.robot.steering[way.actions[-1]])
-        poses = [[pose.x, pose.y, pose.theta] for pose in poses]
-    return {"name": name, "rewards": way.rewards.tolist(), "poses": poses, "crashed": crashed}
+    data = {"name": name, "rewards": way.rewards.tolist()}
+    if task is None:
+        return {**data, "poses": None, "crashed": False}
+    poses = [pose for s in way.states if (pose := task.pose(int(s)))]
+    crashed = len(poses) < way.states.size
+    if crashed:
+        poses.append(task.robot.move(poses[-1], task.robot.steering[way.actions[-1]]))
+    return {**data, "poses": [[pose.x, pose.y, pose.theta] for pose in poses], "crashed": crashed}
 
 
 def _checked_way(way: Any, rows: list[str] | None) -> dict[str, Any]:

@@ -6,7 +6,8 @@ import { number } from "../views/controls.js";
 import { h, svg, uniqueId } from "../views/dom.js";
 import { timed, written } from "./naming.js";
 
-const TALL = 8.5; // sizes of type: the room of the bars
+const TALL = [5, 8.5]; // sizes of type: the room of the bars, at least and at most ...
+const PART = 0.16; // ... and in parts of the window: both ways should be seen at once
 const NARROWEST = 44; // pixels of a column: room for a finger
 const STEP = 0.5; // of a reward that is dragged, or changed by a key
 const KEYS = { ArrowUp: STEP, ArrowDown: -STEP, PageUp: 2, PageDown: -2 };
@@ -128,8 +129,9 @@ export class ReturnLane {
     if (!width || !this.data) return;
     const em = parseFloat(getComputedStyle(this.element).fontSize);
     const [low, high] = this.data.range;
-    this.unit = (TALL * em) / (high - low); // pixels that a reward of 1 is high
-    const height = (TALL + 3) * em;
+    const tall = Math.max(TALL[0] * em, Math.min(TALL[1] * em, PART * innerHeight));
+    this.unit = tall / (high - low); // pixels that a reward of 1 is high
+    const height = tall + 3 * em;
     const at = (r) => 2 * em + (high - r) * this.unit;
     const total = this.strip.clientWidth;
     for (const [key, value] of [["width", total], ["height", height], ["viewBox", `0 0 ${total} ${height}`]]) {

@@ -38,15 +38,15 @@ class ReturnLine {
     const { body, answer } = this.frame;
     const left = h("div", { class: "rl-column" });
     const right = h("div", { class: "rl-column" });
-    body.append(h("div", { class: this.first.map ? "rl-pair" : "rl-column" }, this.first.map ? left : null, right));
+    body.append(h("div", { class: "rl-pair rl-return-pair" }, left, right));
     if (this.first.map) this.map = new GridView(left, { label: "Map with both ways", cursor: false, maxCell: 60 });
     this.gamma = slider({
       label: "Discount γ", min: 0, max: 1, step: 0.01, value: 0, onInput: (gamma) => this.set({ gamma }),
     });
-    right.append(answer, this.bar(), this.gamma.element);
+    left.append(answer, this.bar(), this.gamma.element);
     this.all = toggle({ label: "Show all discounts", onChange: (curves) => this.set({ curves }) });
     this.below = h("div", { class: "rl-column" });
-    right.append(this.all.element, this.below);
+    left.append(this.all.element, this.below);
     const axes = { xLabel: "discount γ", yLabel: "G₀: worth at the beginning" };
     this.chart = new CurveView(this.below, { label: "Worth of both ways at every discount", height: 190, ...axes });
     this.tie = h("p", { class: "rl-tie" });
@@ -55,7 +55,7 @@ class ReturnLine {
     this.help = h("p", { class: "rl-help rl-keys-help" });
     this.help.textContent = "Outline: the reward. Filled: what counts of it at the time that is built. " +
       "Drag a knob, or use the keys: left and right pick a reward, up and down change it.";
-    body.append(this.place, this.help);
+    right.append(this.place, this.help);
   }
 
   bar() {
