@@ -71,11 +71,11 @@ class ReturnLine(Explorable):
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
         """Return the state in its complete form."""
         state = super().checked(state)
-        ways = items("ways", state["ways"], "two ways")
-        if len(ways) != 2:
-            fail("ways", "two ways", f"{len(ways)} of them")
+        given = items("ways", state["ways"], "two ways")
+        if len(given) != 2:
+            fail("ways", "two ways", f"{len(given)} of them")
         rows = state["map"] and _scenario.checked({"map": state["map"], "starts": None})["map"]
-        ways = [_checked_way(way, rows) for way in ways]
+        ways = [_checked_way(way, rows) for way in given]
         if ways[0]["name"] == ways[1]["name"]:
             fail("ways", "ways with two names", f"{show(ways[0]['name'])} twice")
         last = max(len(way["rewards"]) for way in ways)
