@@ -15,6 +15,7 @@ from ._loop_debugger import LoopDebugger
 from ._mystery_robot import MysteryRobot
 from ._one_update import OneUpdate
 from ._policy_iteration import PolicyIteration
+from ._return_line import ReturnLine
 from ._simulator import Simulator
 from ._steering_bandit import SteeringBandit
 from ._value_wave import ValueWave
@@ -29,6 +30,7 @@ __all__ = [
     "MysteryRobot",
     "OneUpdate",
     "PolicyIteration",
+    "ReturnLine",
     "Simulator",
     "SteeringBandit",
     "ValueWave",

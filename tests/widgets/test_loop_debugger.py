@@ -215,6 +215,21 @@ def test_back_shows_what_was_seen_before(page_of):
     assert len(seen) > 7
 
 
+@pytest.mark.parametrize(("name", "position"), [("S₀", 0), ("A₀", 1), ("R₁", 3), ("S₁", 4), ("A₁", 7), ("R₂", 9)])
+def test_a_press_on_the_time_line_goes_back_to_that_moment(page_of, name, position):
+    here = page_of(LoopDebugger(TASK, seed=2, max_steps=4))
+    seen = [looks(here)]
+    for _ in range(9):
+        press(here)
+        seen.append(looks(here))
+    here.page.get_by_role("button", name=f"Go to {name}:").click()
+    assert looks(here) == seen[position]
+    assert state_of(here)["position"] == position
+    if position < 9:
+        press(here)
+        assert looks(here) == seen[position + 1]
+
+
 def test_a_slip_is_told(page_of):
     here = page_of(LoopDebugger(rl.Task(WORLD, rl.Robot(slip=1.0)), seed=0))
     press(here, 2)

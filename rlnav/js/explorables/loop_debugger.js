@@ -61,7 +61,7 @@ class LoopDebugger {
     const reduced = () => this.stage.reducedMotion;
     this.picture = new LoopPicture(body, this.task, { onChoose: (a) => this.forward(a), reduced });
     body.append(this.bar());
-    this.line = new TimeLine(body);
+    this.line = new TimeLine(body, { onPick: (position) => this.goBackTo(position) });
     const below = h("div", { class: "rl-loop-below" });
     this.log = new LogView(below);
     this.program = new ProgramView(below);
@@ -152,6 +152,14 @@ class LoopDebugger {
   goBack() {
     this.player.pause();
     if (this.loop.back()) this.told(false);
+  }
+
+  /** Go back to a moment that is past; what chance gave afterwards comes again, what the reader chose does not. */
+  goBackTo(position) {
+    this.player.pause();
+    while (this.loop.position > position && this.loop.back());
+    this.told(false);
+    this.next.element.focus({ preventScroll: true });
   }
 
   /** Go to the same moment of the next step, or as far as it goes. */

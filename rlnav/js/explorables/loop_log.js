@@ -1,8 +1,9 @@
 /**
  * What an episode leaves behind: the time line S_0 A_0 R_1 S_1 ..., the log with one line a step, and the program.
  */
+import { MOMENTS } from "../scenario/loop.js";
 import { h } from "../views/dom.js";
-import { poseInWords, poseText, symbol, turnInWords, turnText, written } from "./naming.js";
+import { poseInWords, poseText, symbol, timed, turnInWords, turnText, written } from "./naming.js";
 import { lineOf, PROGRAM } from "./loop_words.js";
 
 // The columns of the log: a key, its symbol with the index, and how a value is written.
@@ -47,9 +48,11 @@ export class LogView {
   }
 }
 
-/** The episode as one line of symbols with their values below. */
+/** The episode as one line of symbols with their values below; a press on one goes back to when it was new. */
 export class TimeLine {
-  constructor(parent) {
+  /** `onPick(position)` hears the moment of the symbol that is pressed. */
+  constructor(parent, { onPick }) {
+    this.onPick = onPick;
     this.list = h("ol", { class: "rl-line" });
     const place = { class: "rl-line-scroll", tabindex: 0, role: "group", "aria-label": "Time line" };
     this.element = h("div", place, this.list);
@@ -58,7 +61,7 @@ export class TimeLine {
 
   /** `fresh` names what has just come: the action, the reward or the next state of the last row, or the last state. */
   draw(rows, task, fresh) {
-    const parts = [this.state(rows[0].s, 0, task), ...rows.flatMap((row) => this.step(row, task))];
+    const parts = [this.state(rows[0].s, 0, 0, task), ...rows.flatMap((row) => this.step(row, task))];
     const known = parts.filter(Boolean);
     if (fresh.some((key) => key !== "end")) known.at(-1).classList.add("rl-fresh");
     this.list.replaceChildren(...known);
@@ -68,21 +71,27 @@ export class TimeLine {
   /** A_t, R_{t+1} and S_{t+1}, as far as they are known. */
   step({ t, a, r, sNext }, task) {
     const turn = a === null ? null : task.robot.steering[a];
+    const at = (moment) => MOMENTS.length * t + MOMENTS.indexOf(moment);
     return [
-      a === null ? null : this.item("action", symbol("A", t), turnText(turn), turnInWords(turn)),
-      r === null ? null : this.item("reward", symbol("R", t + 1), written(r), `reward ${written(r)}`),
-      sNext === null ? null : this.state(sNext, t + 1, task),
+      a === null ? null : this.item("action", "A", t, at("choose"), turnText(turn), turnInWords(turn)),
+      r === null ? null : this.item("reward", "R", t + 1, at("pay"), written(r), `reward ${written(r)}`),
+      sNext === null ? null : this.state(sNext, t + 1, at("show"), task),
     ];
   }
 
-  state(s, t, task) {
+  state(s, t, position, task) {
     const pose = task.pose(s);
-    return this.item("state", symbol("S", t), poseText(pose), poseInWords(pose));
+    return this.item("state", "S", t, position, poseText(pose), poseInWords(pose));
   }
 
-  item(kind, name, text, words) {
+  /** A symbol with its value, and over both the button, which Tab leaves out: the keyboard has "Back". */
+  item(kind, letter, t, position, text, words) {
     const value = h("span", { class: "rl-item-value" }, text);
-    return h("li", { class: `rl-item rl-item-${kind}`, title: words }, name, value);
+    const label = `Go to ${timed(letter, t)}: ${words}`;
+    const onClick = () => this.onPick(position);
+    const names = { class: "rl-item-go", "aria-label": label, title: label };
+    const go = h("button", { type: "button", tabindex: -1, ...names, onClick });
+    return h("li", { class: `rl-item rl-item-${kind}` }, symbol(letter, t), value, go);
   }
 }
 

@@ -19,7 +19,8 @@ export class LoopPicture {
     this.agentWords = h("p", { class: "rl-part-words" });
     this.buttons = task.robot.steering.map((a, i) => turnButton(a, i, onChoose));
     const turns = h("div", { class: "rl-turns", role: "group", "aria-label": "Actions" });
-    turns.append(...this.buttons.toReversed().map(({ element }) => element)); // from left to right
+    this.turnsHead = h("p", { class: "rl-turns-head" }, h("span", {}, "turn"), h("span", {}, "chance"));
+    turns.append(this.turnsHead, ...this.buttons.toReversed().map(({ element }) => element)); // from left to right
     const part = (kind, name, ...inside) =>
       h("div", { class: `rl-part ${kind}` }, h("p", { class: "rl-part-name" }, name), inside);
     this.agent = part("rl-agent", "Agent", this.agentWords, turns);
@@ -49,6 +50,7 @@ export class LoopPicture {
     this.world.classList.toggle("rl-active", active.world);
     this.agentWords.textContent = agentWords;
     this.worldWords.textContent = worldWords;
+    this.turnsHead.hidden = !chance;
     this.buttons.forEach((one, i) => {
       one.pressed = row.a === i;
       one.disabled(free ? "" : scene.whyNot);
