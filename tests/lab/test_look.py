@@ -3,18 +3,25 @@
 import re
 
 import nbformat
+import pytest
 
+import rlnav as rl
 from canonical import canonical
 from execute import execute
 
 from ..widgets.arena import Arena
 
-BUTTONS = {
-    "ValueWave": "One sweep",
-    "OneUpdate": "One step",
-    "BackupDiagram": "Turn left",
-    "LoopDebugger": "Whole step",
+EXPLORABLES = {  # what each is made from; most need a task only
+    "Aliasing": "task, here",
+    "ControlTour": "",
+    "MergingPaths": "task, [2] * task.mdp().S, drives=[task.index(here)] * 3",
+    "MysteryRobot": "",
+    "PaintPolicy": "task, here",
+    "ReturnLine": "{'short': [0, 3], 'long': [0, 0, 0, 5]}",
+    "SteeringBandit": "task, here",
+    "StepSizes": "rl.Task(task.world, rl.Robot(slip=0.2)), here, 45",
 }
+FIRST_BUTTON = ".rl-primary:visible, .rl-button:visible:not([aria-disabled=true])"
 TASK = "import rlnav as rl\ntask = rl.Task(rl.GridWorld.from_ascii('>...\\n.#..\\n...G'))"
 SIMULATOR = "import rlnav as rl\nrl.widgets.Simulator(episodes=20)"
 LUMINANCE = """element => {
@@ -32,15 +39,15 @@ LUMINANCE = """element => {
 }"""
 
 
-def test_every_explorable_starts_and_its_state_is_told_to_the_kernel(notebook):
-    it = notebook(TASK, *(f"w = rl.widgets.{name}(task)\nw" for name in BUTTONS))
+@pytest.mark.parametrize("name", sorted(set(rl.widgets.__all__) - {"Explorable", "Live", "Simulator"}))
+def test_an_explorable_starts_and_tells_its_state_to_the_kernel(notebook, name):
+    it = notebook(TASK, f"w = rl.widgets.{name}({EXPLORABLES.get(name, 'task')})\nw")
     it.run()
-    for number, button in enumerate(BUTTONS.values(), 1):
-        root = it.run(number).locator(".rlnav")
-        it.tell("before = w.state")
-        root.get_by_role("button", name=button, exact=True).click()
-        it.wait_until("w.state != before")
-        assert root.get_by_role("alert").filter(has_text=re.compile(r"\w")).count() == 0
+    root = it.run(1).locator(".rlnav")
+    it.tell("before = w.state")
+    root.locator(FIRST_BUTTON).first.click()
+    it.wait_until("w.state != before")
+    assert root.get_by_role("alert").filter(has_text=re.compile(r"\w")).count() == 0
 
 
 def test_the_dark_theme_is_followed_while_it_is_open(notebook, lab):
