@@ -6,20 +6,24 @@ try:
 except ImportError as missing:
     raise ImportError("`rlnav.widgets` needs anywidget. Install it with: pip install 'rlnav[widgets]'") from missing
 
+from ._aliasing import Aliasing
 from ._backup_diagram import BackupDiagram
 from ._explorable import Explorable
 from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._one_update import OneUpdate
+from ._paint_policy import PaintPolicy
 from ._simulator import Simulator
 from ._value_wave import ValueWave
 
 __all__ = [
+    "Aliasing",
     "BackupDiagram",
     "Explorable",
     "Live",
     "LoopDebugger",
     "OneUpdate",
+    "PaintPolicy",
     "Simulator",
     "ValueWave",
 ]
