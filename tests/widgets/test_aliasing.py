@@ -191,7 +191,7 @@ def test_another_cell_is_picked(page_of, way):
     elif way == "touch":
         here.page.touchscreen.tap(*place_of(here, 3, 1))
     else:
-        here.page.get_by_label("Slip, as a number").focus()
+        here.page.get_by_role("radio", name="0°", exact=True).focus()
         here.page.keyboard.press("Tab")
         for key in ("ArrowRight", "ArrowDown", "Enter"):
             here.page.keyboard.press(key)

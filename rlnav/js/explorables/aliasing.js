@@ -64,8 +64,7 @@ class Aliasing {
     this.bars = new ForecastBars(right, { onPick: (before) => this.set({ before }) });
     this.told = h("p", { class: "rl-help rl-told" });
     right.append(this.told);
-    const keys = "Press a cell to put the robot there. Keys on the map: arrows move, Enter puts it there, L and R turn it.";
-    this.frame.body.append(h("p", { class: "rl-help", text: keys }));
+    this.frame.body.append(this.buildSettings());
   }
 
   buildLook() {
@@ -80,9 +79,14 @@ class Aliasing {
       options: turns.map((a) => [String(a), turnText(a)]),
       onChange: (turn) => this.ask({ turn: Number(turn) }),
     });
+    return h("div", { class: "rl-alias-look" }, this.perceive.element, this.turn.element);
+  }
+
+  buildSettings() {
     const onInput = (slip) => this.ask({ scenario: { ...this.stage.state.scenario, slip } });
     this.slip = slider({ label: "Slip", min: 0, max: 0.5, step: 0.05, value: 0, onInput });
-    return h("div", { class: "rl-alias-look" }, [this.perceive, this.turn, this.slip].map((one) => one.element));
+    const keys = "Press a cell to put the robot there. Keys on the map: arrows move, Enter puts it there, L and R turn it.";
+    return h("div", { class: "rl-row" }, this.slip.element, h("p", { class: "rl-help", text: keys }));
   }
 
   buildRun() {
