@@ -10,7 +10,7 @@ import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { Player } from "../views/player.js";
-import { drive, named, verdict } from "./aliasing_words.js";
+import { drive as told, named, verdict } from "./aliasing_words.js";
 import { ForecastBars } from "./forecast_bars.js";
 import { frame } from "./frame.js";
 import { turnText } from "./naming.js";
@@ -85,8 +85,9 @@ class Aliasing {
   buildSettings() {
     const onInput = (slip) => this.ask({ scenario: { ...this.stage.state.scenario, slip } });
     this.slip = slider({ label: "Slip", min: 0, max: 0.5, step: 0.05, value: 0, onInput });
-    const keys = "Press a cell to put the robot there. Keys on the map: arrows move, Enter puts it there, L and R turn it.";
-    return h("div", { class: "rl-row" }, this.slip.element, h("p", { class: "rl-help", text: keys }));
+    const keys = "Keys on the map: arrows move, Enter puts it there, L and R turn it.";
+    const help = h("p", { class: "rl-help", text: `Press a cell to put the robot there. ${keys}` });
+    return h("div", { class: "rl-row" }, this.slip.element, help);
   }
 
   buildRun() {
@@ -165,8 +166,7 @@ class Aliasing {
   }
 
   wayOf({ before, s, next }) {
-    const poses = posesOf(this.task, [before, s, next], this.a);
-    return poses.map((pose) => ({ ...pose }));
+    return posesOf(this.task, [before, s, next], this.a);
   }
 
   nextLeg() {
@@ -213,7 +213,7 @@ class Aliasing {
     const title = perceive === "heading" ? "heading before" : "it came from";
     const name = (o) => named(o, perceive, look, pose);
     this.bars.draw({ forecast, name, tried, before, title });
-    this.told.textContent = this.last ? drive(look, this.last, drives) : "";
+    this.told.textContent = this.last ? told(look, this.last, drives) : "";
     this.frame.say(verdict(look, forecast, count, { perceive, pose, turn }));
     const none = forecast.rows.length ? "" : "No step leads here.";
     const enough = drives >= MOST_DRIVES ? `${MOST_DRIVES} drives are enough.` : "";
@@ -234,12 +234,11 @@ class Aliasing {
     }
     const high = Math.max(...row.poses.values());
     const selected = { x, y, theta: perceive === "pose" ? theta : null };
-    const robot = way && (leg < 1 ? { ...way[leg + 1], from: way[leg], at } : leg === 1 ? { ...way[2], from: way[1], at } : null);
+    const moving = way && leg >= 0 && leg < 2;
+    const drive = moving ? { robot: { ...way[leg + 1], from: way[leg], at } } : { path: way };
     const scale = { low: 0, high };
-    const moving = leg >= 0 && leg < 2;
-    const marks = this.futures(row);
-    this.map.draw({ width, height, obstacles, goal, rings, scale, selected, marks,
-      path: way && !moving ? way : null, robot: moving ? robot : null });
+    const world = { width, height, obstacles, goal };
+    this.map.draw({ ...world, rings, scale, selected, marks: this.futures(row), ...drive });
     this.legend.draw({ ...scale, label: "chance of the pose" });
     this.map.describe(`${this.frame.answer.textContent} Arrow keys move, Enter puts the robot there, L and R turn it.`);
   }

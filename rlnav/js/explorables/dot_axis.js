@@ -1,12 +1,17 @@
 /**
- * Drives as dots that fall on an axis of returns, beside the exact value; below them the mean, with how uncertain it is.
+ * Drives as dots that fall on an axis of returns, beside the exact value; below them the mean and its uncertainty.
  */
 import { makeScale, ticksOf } from "../views/chart_scale.js";
 import { h, svg } from "../views/dom.js";
 import { written } from "./naming.js";
 
 const BINS = 44; // heaps along the axis
-const KEYS = [["one", "one drive"], ["mean", "mean, 95 % interval"], ["sd", "mean ± standard deviation"], ["exact", "exact value"]];
+const KEYS = Object.entries({
+  one: "one drive",
+  mean: "mean, 95 % interval",
+  sd: "mean ± standard deviation",
+  exact: "exact value",
+});
 
 export class DotAxis {
   constructor(parent) {
@@ -50,8 +55,8 @@ function axis(x, box, em) {
     svg("text", { x: at, y: box.bottom + 1.1 * em, "text-anchor": "middle", text }),
   ]);
   const base = svg("line", { class: "rl-axis", x1: box.left, x2: box.right, y1: box.floor, y2: box.floor });
-  const name = { x: box.right, y: box.bottom + 2.4 * em, "text-anchor": "end", class: "rl-strong", text: "return G of a drive" };
-  return [base, ...ticks, svg("text", name)];
+  const place = { x: box.right, y: box.bottom + 2.4 * em, "text-anchor": "end" };
+  return [base, ...ticks, svg("text", { ...place, class: "rl-strong", text: "return G of a drive" })];
 }
 
 /** Heaps of dots; where a heap would be too high, its dots overlap. */
@@ -73,7 +78,10 @@ function summary({ n, mean, sd, half }, x, box, em) {
   if (n < 2) return [];
   const y = box.floor + 1.3 * em;
   const clipped = (v) => Math.min(Math.max(x.at(v), box.left), box.right);
-  const span = (reach, kind) => svg("line", { class: kind, x1: clipped(mean - reach), x2: clipped(mean + reach), y1: y, y2: y });
+  const span = (reach, kind) => {
+    const [x1, x2] = [clipped(mean - reach), clipped(mean + reach)];
+    return svg("line", { class: kind, x1, x2, y1: y, y2: y });
+  };
   const r = 0.38 * em;
   const diamond = `M${x.at(mean)} ${y - r}l${r} ${r}l${-r} ${r}l${-r} ${-r}z`;
   return [span(sd, "rl-sd"), span(half, "rl-ci"), svg("path", { class: "rl-mean", d: diamond })];
@@ -90,7 +98,10 @@ function exactLine(v, x, box, em) {
 function sample(kind) {
   const parts = {
     one: [svg("circle", { class: "rl-dot", cx: 14, cy: 5, r: 4 })],
-    mean: [svg("line", { class: "rl-ci", x1: 3, x2: 25, y1: 5, y2: 5 }), svg("path", { class: "rl-mean", d: "M14 0l5 5l-5 5l-5 -5z" })],
+    mean: [
+      svg("line", { class: "rl-ci", x1: 3, x2: 25, y1: 5, y2: 5 }),
+      svg("path", { class: "rl-mean", d: "M14 0l5 5l-5 5l-5 -5z" }),
+    ],
     sd: [svg("line", { class: "rl-sd", x1: 0, x2: 28, y1: 5, y2: 5 })],
     exact: [svg("line", { class: "rl-exact", x1: 14, x2: 14, y1: 0, y2: 10 })],
   };

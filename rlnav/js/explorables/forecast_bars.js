@@ -29,7 +29,9 @@ export class ForecastBars {
     for (const counts of tried.values()) for (const [o, n] of counts) together.set(o, (together.get(o) ?? 0) + n);
     const shown = rows.slice(0, MOST);
     const bar = (next, counts) => [barOf(next, order, name), triedOf(counts, order)];
-    const lines = shown.map((row) => [this.button(row.h, name(row.h).words, row.h === before), bar(row.next, tried.get(row.h))]);
+    const lines = shown.map(({ h: one, next }) => {
+      return [this.button(one, name(one).words, one === before), bar(next, tried.get(one))];
+    });
     const focused = this.rows.contains(document.activeElement) ? document.activeElement.dataset.h : null;
     this.rows.replaceChildren(
       rowOf(h("span", { text: "not known" }), bar(all.next, together), "rl-forecast-all"),
@@ -40,14 +42,17 @@ export class ForecastBars {
     this.rest.textContent = more > 0 ? `And ${more} more that are as likely or less.` : "";
   }
 
-  button(h_, words, pressed) {
-    const attributes = { type: "button", class: "rl-button", "aria-pressed": pressed, dataset: { h: h_ } };
-    return h("button", { ...attributes, onClick: () => this.onPick(pressed ? null : h_) }, words);
+  /** The head of a row, which picks what was perceived before. */
+  button(before, words, pressed) {
+    const onClick = () => this.onPick(pressed ? null : before);
+    const look = { type: "button", class: "rl-button", "aria-pressed": pressed, dataset: { h: before } };
+    return h("button", { ...look, onClick }, words);
   }
 }
 
 function rowOf(head, [bar, count], kind = null) {
-  return h("tr", { class: kind }, h("th", { scope: "row" }, head), h("td", {}, bar), h("td", { class: "rl-tried" }, count));
+  const cells = [h("td", {}, bar), h("td", { class: "rl-tried" }, count)];
+  return h("tr", { class: kind }, h("th", { scope: "row" }, head), cells);
 }
 
 function barOf(next, order, name) {
@@ -57,9 +62,9 @@ function barOf(next, order, name) {
     const p = next.get(o);
     const text = p >= WRITTEN ? h("b", { text: name(o).short }) : null;
     const chance = p >= 2 * WRITTEN ? h("span", { text: percent(p) }) : null;
-    const color = SERIES[order.indexOf(o) % SERIES.length];
-    return h("span", { class: "rl-part", style: { flexGrow: p, borderColor: color }, title: `${name(o).words}: ${percent(p)}`,
-                       dataset: { o, p } }, text, chance);
+    const style = { flexGrow: p, borderColor: SERIES[order.indexOf(o) % SERIES.length] };
+    const title = `${name(o).words}: ${percent(p)}`;
+    return h("span", { class: "rl-part", style, title, dataset: { o, p } }, text, chance);
   };
   return h("div", { class: "rl-bar", role: "img", "aria-label": words }, parts.map(piece));
 }
@@ -72,5 +77,6 @@ function triedOf(counts, order) {
     const style = { flexGrow: counts.get(o), background: SERIES[order.indexOf(o) % SERIES.length] };
     return h("i", { style, dataset: { o, n: counts.get(o) } });
   });
-  return [h("span", { text: total.toLocaleString("en-US") }), h("div", { class: "rl-thin", "aria-hidden": "true" }, thin)];
+  const number = h("span", { text: total.toLocaleString("en-US") });
+  return [number, h("div", { class: "rl-thin", "aria-hidden": "true" }, thin)];
 }

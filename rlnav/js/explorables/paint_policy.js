@@ -9,11 +9,11 @@ import { ANY, chancesOf, compared, filled, painted, signOf, statistics } from ".
 import { button, choice, segmented, slider, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
-import { NONE } from "../views/grid_values.js";
 import { Legend } from "../views/legend.js";
 import { DotAxis } from "./dot_axis.js";
 import { frame } from "./frame.js";
 import { ARROWS, poseInWords, turnText, written } from "./naming.js";
+import { mapOf, scaleOf } from "./paint_picture.js";
 import { comparison, sentence } from "./paint_words.js";
 import { rememberedProblem } from "./problem.js";
 
@@ -71,7 +71,8 @@ class PaintPolicy {
   buildBrush() {
     const turns = this.first.scenario.steering.map((a, i) => [String(i), turnText(a)]).reverse();
     const brushes = [["start", "start here"], ...turns, ["random", "random"]];
-    this.brush = segmented({ label: "A press on the map means", options: brushes, onChange: (brush) => this.setBrush(brush) });
+    const onChange = (brush) => this.setBrush(brush);
+    this.brush = segmented({ label: "A press on the map means", options: brushes, onChange });
     const fill = ([kind, label]) => button({ label, icon: "brush", onClick: () => this.paintAll(kind) });
     const tools = toolbar({ label: "The same everywhere", children: FILLS.map(fill) });
     const arrows = HEADINGS.map((theta) => [String(theta), `heading ${theta}° ${ARROWS[theta / 45]}`]);
@@ -200,7 +201,8 @@ class PaintPolicy {
   press({ type, x, y, theta, button: pressed }) {
     if ((type !== "down" && type !== "move") || pressed > 0) return;
     if (type === "down") this.map.cursor = [x, y];
-    if (type === "down" || this.stage.state.brush !== "start") this.use({ x, y, theta: this.stage.state.heading ?? theta });
+    const { brush, heading } = this.stage.state;
+    if (type === "down" || brush !== "start") this.use({ x, y, theta: heading ?? theta });
   }
 
   /** Do to a pose what a press means. */
@@ -243,11 +245,10 @@ class PaintPolicy {
     const { G, V, W, s, mdp, stage } = this;
     const [x, y, theta] = stage.state.pose;
     const numbers = statistics(G);
-    const [low, high] = [Math.min(...mdp.reward), Math.max(...mdp.reward)];
     const words = sentence({ x, y, theta }, numbers, V[s]);
-    this.axis.draw({ G, statistics: numbers, v: V[s], low, high, fresh, label: words });
+    this.axis.draw({ G, statistics: numbers, v: V[s], ...scaleOf(mdp), fresh, label: words });
     this.frame.say(words);
-    this.drawMap(low, high);
+    this.drawMap();
     const versus = W ? comparison(compared(mdp, V, W)) : "Keep a policy to compare the next ones with it.";
     if (this.versus.textContent !== versus) this.versus.textContent = versus;
     this.compare.pressed = this.difference;
@@ -257,26 +258,12 @@ class PaintPolicy {
     for (const one of [this.once, this.many]) one.disabled(enough);
   }
 
-  drawMap(low, high) {
-    const { task, stage, difference, V, W } = this;
-    const { heading, pose: [x, y, theta], policy } = stage.state;
-    const { width, height, obstacles, goal } = task.world;
-    const each = heading === null ? 8 : 1;
-    const shades = new Float64Array(width * height * each).fill(NaN);
-    const needles = new Int8Array(width * height * 8).fill(NONE);
-    task.poses.forEach((pose, s) => {
-      if (this.mdp.terminal[s]) return;
-      const cell = pose.y * width + pose.x;
-      if (policy[s] !== ANY) needles[cell * 8 + pose.theta / 45] = task.robot.steering[policy[s]] / 45;
-      if (each === 1 && pose.theta !== heading) return;
-      shades[each === 8 ? cell * 8 + pose.theta / 45 : cell] = difference ? V[s] - W[s] : V[s];
-    });
-    const reach = Math.max(1e-9, ...shades.filter((v) => !Number.isNaN(v)).map(Math.abs));
-    const scale = difference ? { low: -reach, high: reach, diverging: true } : { low, high };
-    const values = each === 8 ? { rings: shades } : { cells: shades };
-    this.map.draw({ width, height, obstacles, goal, ...values, needles, needlesAt: heading, scale, selected: { x, y, theta } });
-    const describe = `${this.frame.answer.textContent} Arrow keys move, R turns the heading, Enter does what a press does.`;
-    this.map.describe(describe);
-    this.legend.draw({ ...scale, label: difference ? "value less that of the kept policy" : "value" });
+  drawMap() {
+    const { difference, W, stage } = this;
+    const map = mapOf(this, difference ? W : null, stage.state);
+    this.map.draw(map);
+    const keys = "Arrow keys move, R turns the heading, Enter does what a press does.";
+    this.map.describe(`${this.frame.answer.textContent} ${keys}`);
+    this.legend.draw({ ...map.scale, label: difference ? "value less that of the kept policy" : "value" });
   }
 }
