@@ -6,6 +6,7 @@ try:
 except ImportError as missing:
     raise ImportError("`rlnav.widgets` needs anywidget. Install it with: pip install 'rlnav[widgets]'") from missing
 
+from ._aliasing import Aliasing
 from ._backup_diagram import BackupDiagram
 from ._contraction import Contraction
 from ._control_tour import ControlTour
@@ -14,6 +15,7 @@ from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._mystery_robot import MysteryRobot
 from ._one_update import OneUpdate
+from ._paint_policy import PaintPolicy
 from ._policy_iteration import PolicyIteration
 from ._return_line import ReturnLine
 from ._simulator import Simulator
@@ -21,6 +23,7 @@ from ._steering_bandit import SteeringBandit
 from ._value_wave import ValueWave
 
 __all__ = [
+    "Aliasing",
     "BackupDiagram",
     "Contraction",
     "ControlTour",
@@ -29,6 +32,7 @@ __all__ = [
     "LoopDebugger",
     "MysteryRobot",
     "OneUpdate",
+    "PaintPolicy",
     "PolicyIteration",
     "ReturnLine",
     "Simulator",
