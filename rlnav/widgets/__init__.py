@@ -11,6 +11,7 @@ from ._explorable import Explorable
 from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._one_update import OneUpdate
+from ._reward_mixer import RewardMixer
 from ._simulator import Simulator
 from ._value_wave import ValueWave
 
@@ -20,6 +21,7 @@ __all__ = [
     "Live",
     "LoopDebugger",
     "OneUpdate",
+    "RewardMixer",
     "Simulator",
     "ValueWave",
 ]
