@@ -62,7 +62,7 @@ class RewardMixer {
     this.frame = frame(this.stage, { question: "What does this reward ask for?", onReset: () => this.reset() });
     const left = h("div", { class: "rl-column" });
     const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right));
+    this.frame.body.append(h("div", { class: "rl-pair rl-mixer" }, left, right));
     this.map = new GridView(left, {
       label: "Map with the drive that is best by this reward",
       onCell: (event) => event.type === "down" && event.button === 0 && this.pick(event),
