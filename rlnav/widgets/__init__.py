@@ -18,6 +18,7 @@ from ._one_update import OneUpdate
 from ._paint_policy import PaintPolicy
 from ._policy_iteration import PolicyIteration
 from ._return_line import ReturnLine
+from ._reward_mixer import RewardMixer
 from ._simulator import Simulator
 from ._steering_bandit import SteeringBandit
 from ._value_wave import ValueWave
@@ -35,6 +36,7 @@ __all__ = [
     "PaintPolicy",
     "PolicyIteration",
     "ReturnLine",
+    "RewardMixer",
     "Simulator",
     "SteeringBandit",
     "ValueWave",
