@@ -12,6 +12,7 @@ from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._one_update import OneUpdate
 from ._simulator import Simulator
+from ._steering_fan import SteeringFan
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -21,5 +22,6 @@ __all__ = [
     "LoopDebugger",
     "OneUpdate",
     "Simulator",
+    "SteeringFan",
     "ValueWave",
 ]
