@@ -1,4 +1,4 @@
-"""The steering fan: its moves and steps are the library's, and its parts do what they say by mouse, touch and keyboard."""
+"""The steering fan: its moves are those of the library, its parts do what they say by mouse, touch and keyboard."""
 
 import math
 
