@@ -8,6 +8,7 @@ except ImportError as missing:
 
 from ._backup_diagram import BackupDiagram
 from ._explorable import Explorable
+from ._feature_picker import FeaturePicker
 from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._one_update import OneUpdate
@@ -18,6 +19,7 @@ from ._value_wave import ValueWave
 __all__ = [
     "BackupDiagram",
     "Explorable",
+    "FeaturePicker",
     "Live",
     "LoopDebugger",
     "OneUpdate",
