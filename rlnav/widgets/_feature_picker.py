@@ -13,6 +13,7 @@ from ..evaluation import evaluate
 from ..learning import q_learning
 from ..planning import solve
 from ..plot._ground import draw_robot
+from ..plot._look import BLUE
 from ..task import Task
 from ..world import GridWorld
 from . import _scenario
@@ -98,10 +99,12 @@ class FeaturePicker(Explorable):
         """How many rows the table has, how many are met on this map, and how many of these mix different best turns."""
         task = self.task
         mdp, phi = task.mdp(), task.phi()
-        best, common = solve(mdp, tol=1e-12).Q, {}
+        best = solve(mdp, tol=1e-12).Q
+        common: dict[int, np.ndarray] = {}
         for s in np.flatnonzero(_reached(mdp) & ~mdp.terminal):
             good = best[s] >= best[s].max() - TIE * max(1, abs(best[s].max()))
-            common[phi[s]] = common.get(phi[s], True) & good
+            z = int(phi[s])
+            common[z] = common[z] & good if z in common else good
         return {"rows": int(phi.max()), "met": len(common), "mixed": sum(not good.any() for good in common.values())}
 
     def learned(self) -> np.ndarray:
@@ -144,7 +147,7 @@ class FeaturePicker(Explorable):
         ax = plot.world(task)
         rows = np.bincount(phi[~mdp.terminal])
         for s in np.flatnonzero((phi == rows.argmax()) & ~mdp.terminal):
-            draw_robot(ax, *_place(task, s), task.poses[s].theta, "#0072b2", size=0.5)
+            draw_robot(ax, *_place(task, int(s)), task.poses[s].theta, BLUE, size=0.5)
         rows_met = f"{table['rows']:,} rows, {table['met']} of them are met on this map"
         return ax, f"{rows_met}, {table['mixed']} mix poses that need different turns. All arrowheads share one row."
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .. import plot
 from .._check import fail, integer, items
 from ..plot._ground import draw_robot
-from ..plot._look import SEQUENTIAL
+from ..plot._look import BLUE, SEQUENTIAL
 from ..robot import Pose, Robot
 from ..task import Task
 from . import _scenario
@@ -99,6 +99,6 @@ class SteeringFan(Explorable):
             pose = task.poses[s]
             x, y = (pose.x + 0.28 * np.cos(np.radians(pose.theta)), pose.y + 0.28 * np.sin(np.radians(pose.theta)))
             draw_robot(ax, x, y, pose.theta, SEQUENTIAL(reach[s] / MOST_STEPS), size=0.4)
-        draw_robot(ax, *self.state["pose"], "#0072b2")
+        draw_robot(ax, *map(int, self.state["pose"]), color=BLUE)
         cells = len({(task.poses[s].x, task.poses[s].y) for s in np.flatnonzero(reach >= 0)})
         return ax, f"Within {self.state['steps']} steps: {(reach >= 0).sum()} poses on {cells} cells."
