@@ -97,8 +97,10 @@ class SteeringFan(Explorable):
         ax = plot.world(task)
         for s in np.flatnonzero(reach > 0):
             pose = task.poses[s]
-            x, y = (pose.x + 0.28 * np.cos(np.radians(pose.theta)), pose.y + 0.28 * np.sin(np.radians(pose.theta)))
-            draw_robot(ax, x, y, pose.theta, SEQUENTIAL(reach[s] / MOST_STEPS), size=0.4)
-        draw_robot(ax, *map(int, self.state["pose"]), color=BLUE)
+            angle = np.radians(pose.theta)
+            at = (pose.x + 0.28 * np.cos(angle), pose.y + 0.28 * np.sin(angle))
+            draw_robot(ax, *at, pose.theta, SEQUENTIAL(reach[s] / MOST_STEPS), size=0.4)
+        x, y, theta = self.state["pose"]
+        draw_robot(ax, x, y, theta, BLUE)
         cells = len({(task.poses[s].x, task.poses[s].y) for s in np.flatnonzero(reach >= 0)})
         return ax, f"Within {self.state['steps']} steps: {(reach >= 0).sum()} poses on {cells} cells."
