@@ -11,6 +11,7 @@ from ._backup_diagram import BackupDiagram
 from ._contraction import Contraction
 from ._control_tour import ControlTour
 from ._explorable import Explorable
+from ._feature_picker import FeaturePicker
 from ._live import Live
 from ._loop_debugger import LoopDebugger
 from ._mystery_robot import MysteryRobot
@@ -21,6 +22,7 @@ from ._return_line import ReturnLine
 from ._reward_mixer import RewardMixer
 from ._simulator import Simulator
 from ._steering_bandit import SteeringBandit
+from ._steering_fan import SteeringFan
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -29,6 +31,7 @@ __all__ = [
     "Contraction",
     "ControlTour",
     "Explorable",
+    "FeaturePicker",
     "Live",
     "LoopDebugger",
     "MysteryRobot",
@@ -39,5 +42,6 @@ __all__ = [
     "RewardMixer",
     "Simulator",
     "SteeringBandit",
+    "SteeringFan",
     "ValueWave",
 ]

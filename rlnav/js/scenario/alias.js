@@ -9,29 +9,47 @@ import { reachedFrom } from "./trial.js";
  * loses most by it: { count, pair: [pose, pose] or null, turns: the best turn of each }.
  */
 export function aliasesOf(task, mdp, phi, Q) {
-  const rows = new Map(); // row -> best actions, as bits -> the first state with them
-  const { start, S, A, K } = mdp;
-  const reached = reachedFrom(start, S, A * K, mdp.nextState, mdp.prob); // by whatever it does
+  const { pairs } = mixedRows(mdp, phi, Q);
+  const [first] = pairs;
+  if (!first || first.loss <= 0) return { count: pairs.length, pair: null, turns: null };
+  return { count: pairs.length, ...inWorld(task, mdp, Q, first) };
+}
+
+/** Give two states of a row as poses, with the best turn of each: { pair, turns }. */
+export function inWorld({ robot, poses }, { A }, Q, { states }) {
+  const turns = states.map((s) => robot.steering[Math.log2(lowest(bestActions(Q, s, A)))]);
+  return { pair: states.map((s) => poses[s]), turns };
+}
+
+/**
+ * Look at every row that the robot can meet: `met` of them there are, in `mixed` of them no action is best for all of
+ * the row's poses, and `pairs` holds, for each row with two poses that have none in common, those that lose most by
+ * sharing it, { loss, states }; the row that loses most comes first.
+ */
+export function mixedRows(mdp, phi, Q) {
+  const { A } = mdp;
+  const rows = kindsOf(mdp, phi, Q);
+  const all = (1 << A) - 1;
+  const kinds = [...rows.values()];
+  const mixed = kinds.filter((kind) => [...kind.keys()].reduce((common, bits) => common & bits, all) === 0).length;
+  const pairs = kinds.flatMap((kind) => {
+    const apart = disjoint([...kind]).map((states) => ({ loss: lossOf(Q, A, states), states }));
+    return apart.length ? [apart.reduce((worst, one) => (one.loss > worst.loss ? one : worst))] : [];
+  });
+  return { met: rows.size, mixed, pairs: pairs.sort((a, b) => b.loss - a.loss) };
+}
+
+/** The rows that the robot can meet: row -> best actions, as bits -> the first state with them. */
+function kindsOf({ start, S, A, K, nextState, prob, terminal }, phi, Q) {
+  const rows = new Map();
+  const reached = reachedFrom(start, S, A * K, nextState, prob); // by whatever it does
   for (let s = 0; s < S; s++) {
-    if (!reached[s] || mdp.terminal[s]) continue;
+    if (!reached[s] || terminal[s]) continue;
     const kinds = rows.get(phi[s]) ?? rows.set(phi[s], new Map()).get(phi[s]);
     const bits = bestActions(Q, s, A);
     if (!kinds.has(bits)) kinds.set(bits, s);
   }
-  let count = 0;
-  let worst = { loss: 0, states: null };
-  for (const kinds of rows.values()) {
-    const pairs = disjoint([...kinds]);
-    if (pairs.length) count += 1;
-    for (const states of pairs) {
-      const loss = lossOf(Q, A, states);
-      if (loss > worst.loss) worst = { loss, states };
-    }
-  }
-  const { states } = worst;
-  if (!states) return { count, pair: null, turns: null };
-  const turns = states.map((s) => task.robot.steering[Math.log2(lowest(bestActions(Q, s, A)))]);
-  return { count, pair: states.map((s) => task.pose(s)), turns };
+  return rows;
 }
 
 /** The actions of a state that are as good as the best, as bits. */

@@ -8,7 +8,7 @@ import { h, uniqueId } from "../views/dom.js";
 import { changes } from "./fields.js";
 import { headingInWords, turnInWords } from "./words.js";
 
-const FEATURES = [
+export const FEATURES = [
   ["cell", "Its cell", "Where it stands, without its heading."],
   ["heading", "Its heading", "One of the eight, as on a compass."],
   ["goal_direction", "Direction of the goal on the map", "Left, level or right; below, level or above: nine cases."],
@@ -55,7 +55,7 @@ export function perception(app, fields) {
 const nameOf = (feature) => (Array.isArray(feature) ? feature[0] : feature);
 
 /** One feature: a box to tick, and its argument if it has one. */
-function featureRow(app, fields, name, label, help) {
+export function featureRow(app, fields, name, label, help) {
   const present = () => app.scenario.features?.find((feature) => nameOf(feature) === name);
   const put = (feature) => {
     const others = (app.scenario.features ?? []).filter((other) => nameOf(other) !== name);
@@ -120,7 +120,7 @@ function binsField(onChange) {
 }
 
 /** Two bars that compare the table with that of the whole pose; each mark is a factor of ten. */
-function meter(app) {
+export function meter(app) {
   const bar = (name) => {
     const part = h("i", {});
     const words = h("span", { class: "rl-meter-words" });
