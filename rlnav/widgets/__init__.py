@@ -10,6 +10,7 @@ from ._backup_diagram import BackupDiagram
 from ._explorable import Explorable
 from ._live import Live
 from ._loop_debugger import LoopDebugger
+from ._merging_paths import MergingPaths
 from ._one_update import OneUpdate
 from ._simulator import Simulator
 from ._value_wave import ValueWave
@@ -19,6 +20,7 @@ __all__ = [
     "Explorable",
     "Live",
     "LoopDebugger",
+    "MergingPaths",
     "OneUpdate",
     "Simulator",
     "ValueWave",
