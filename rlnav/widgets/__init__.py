@@ -13,6 +13,7 @@ from ._loop_debugger import LoopDebugger
 from ._merging_paths import MergingPaths
 from ._one_update import OneUpdate
 from ._simulator import Simulator
+from ._step_sizes import StepSizes
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -23,5 +24,6 @@ __all__ = [
     "MergingPaths",
     "OneUpdate",
     "Simulator",
+    "StepSizes",
     "ValueWave",
 ]
