@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ._source import source
     from ._training import Training
     from .designs import Feature, Transition
+    from .estimation import Prediction, mc_prediction, td_prediction
     from .evaluation import Evaluation, evaluate
     from .learning import (
         double_q_learning,
@@ -44,6 +45,7 @@ _HOME = {
     "task": ["Task"],
     "mdp": ["MDP", "action_values", "greedy", "epsilon_greedy"],
     "prediction": ["evaluate_policy"],
+    "estimation": ["td_prediction", "mc_prediction", "Prediction"],
     "planning": ["value_iteration", "policy_iteration", "solve", "Solution"],
     "learning": [
         "q_learning",

@@ -92,6 +92,19 @@ def draw_action(Q, z, epsilon, u, w):
 
 
 @inline
+def draw_from(pi, s, u):
+    """Choose an action with the probabilities pi[s, a] of a policy."""
+    total, choice = 0.0, 0
+    for a in range(pi.shape[1]):
+        total += pi[s, a]
+        if pi[s, a] > 0.0:
+            choice = a  # the last one with a chance, should the sum end below `u` by rounding
+        if u < total:
+            break
+    return choice
+
+
+@inline
 def expected(Q, z, epsilon):
     """sum_a pi(a | z) Q[z, a] under the epsilon-greedy policy; tied best actions have equal values."""
     best, total = largest(Q, z), 0.0

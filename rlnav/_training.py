@@ -94,11 +94,11 @@ def train(
     _check.instance("mdp", mdp, MDP)
     phi = check_phi(mdp, phi)
     episodes = _check.integer("episodes", episodes, 1, MOST_EPISODES)
-    alpha = _schedule("alpha", alpha, episodes, above=True)
-    epsilon = _schedule("epsilon", epsilon, episodes)
+    alpha = schedule("alpha", alpha, episodes, above=True)
+    epsilon = schedule("epsilon", epsilon, episodes)
     max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     Q = _initial_table(Q0, int(phi.max()) + 1, mdp.A)
-    after = _snapshot_episodes(_check.integer("snapshots", snapshots, 0), episodes, Q.size)
+    after = snapshot_episodes(_check.integer("snapshots", snapshots, 0), episodes, Q.size)
     log = _empty_log(episodes, after, Q)
     loop(arrays(mdp), phi.astype(np.uint32), Q, alpha, epsilon, max_steps, _check.generator(rng), log)
     ended, success = mdp.terminal[log.last], mdp.goal[log.last]
@@ -116,8 +116,8 @@ def check_phi(mdp: MDP, phi: ArrayLike | None) -> NDArray[np.int64]:
     return phi
 
 
-def _schedule(name: str, value: float | ArrayLike, episodes: int, *, above: bool = False) -> NDArray[np.float64]:
-    """One number for each episode."""
+def schedule(name: str, value: float | ArrayLike, episodes: int, *, above: bool = False) -> NDArray[np.float64]:
+    """Return one number for each episode."""
     value = _check.plain(name, value, "one number, or one for each episode")
     if value.ndim == 0:
         return np.full(episodes, _check.number(name, value, 0, 1, above=above))
@@ -138,7 +138,8 @@ def _initial_table(Q0: float | ArrayLike, Z: int, A: int) -> NDArray[np.float64]
     return np.array(_check.array("Q0", Q0, "real", (Z, A), "one number, or an initial table"), np.float64)
 
 
-def _snapshot_episodes(n: int, episodes: int, size: int) -> NDArray[np.int64]:
+def snapshot_episodes(n: int, episodes: int, size: int) -> NDArray[np.int64]:
+    """Return after which episodes the table is kept, n of them, evenly spaced."""
     if n > episodes or n * size > MOST_NUMBERS:
         most = min(episodes, MOST_NUMBERS // size)
         _check.fail("snapshots", f"at most {most:,} for {episodes:,} episodes and {size:,} numbers a table", str(n))

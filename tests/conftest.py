@@ -32,6 +32,8 @@ def compiled():
     """All loops as machine code, so that no later test has to wait for the compiler."""
     mdp = rl.Task(rl.GridWorld.from_ascii(">.G")).mdp()
     rl.solve(mdp)
+    for predictor in (rl.td_prediction, rl.mc_prediction):
+        predictor(mdp, [0] * mdp.S, episodes=1, rng=0)
     for learner in (rl.q_learning, rl.sarsa, rl.expected_sarsa, rl.double_q_learning, rl.monte_carlo):
         learner(mdp, episodes=1, rng=0)
 

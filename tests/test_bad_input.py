@@ -280,6 +280,8 @@ POLICY_USERS = [
     rl.evaluate_policy,
     rl.evaluate,
     lambda mdp, pi: rl.rollout(mdp, pi, rng=0),
+    lambda mdp, pi: rl.td_prediction(mdp, pi, episodes=1, rng=0),
+    lambda mdp, pi: rl.mc_prediction(mdp, pi, episodes=1, rng=0),
 ]
 
 
@@ -585,6 +587,8 @@ LEARNING = {
     "phi": np.arange(MDP.S),
 }
 
+PREDICTION = {"mdp": MDP, "pi": STAY, "episodes": 3, "alpha": 0.5, "max_steps": 5, "rng": 0, "V0": 0.0, "snapshots": 1}
+
 
 def model_of(**keywords):
     """A task's model and its state design, which is where its functions are called."""
@@ -628,6 +632,7 @@ DOORS = [
     (rl.policy_iteration, {"mdp": MDP, "pi": STAY}),
     (rl.evaluate_policy, {"mdp": MDP, "pi": STAY}),
     (rl.evaluate, {"mdp": MDP, "pi": STAY, "max_steps": 5}),
+    *[(predictor, PREDICTION) for predictor in (rl.td_prediction, rl.mc_prediction)],
     (rl.rollout, {"mdp": MDP, "pi": STAY, "start": 0, "max_steps": 5, "rng": 0}),
     (rl.returns, {"rewards": [1.0, 2.0], "gamma": 0.9}),
     (rl.learn, LEARNING | {"rule": rl.sarsa_rule}),
@@ -678,7 +683,14 @@ def test_anything_is_accepted_or_refused_by_name(function, good, name, capsys): 
 
 def test_every_public_function_and_class_is_tried():
     tried = {getattr(function, "__self__", function) for function, _ in DOORS} | {function for function, _ in DOORS}
-    results = {rl.Episode, rl.Evaluation, rl.Solution, rl.Training, rl.Transition}  # what the library makes itself
+    results = {
+        rl.Episode,
+        rl.Evaluation,
+        rl.Prediction,
+        rl.Solution,
+        rl.Training,
+        rl.Transition,
+    }  # what the library makes itself
     rules = {rl.q_learning_rule, rl.sarsa_rule}  # called by `learn` alone, with what it has checked
     through = {rl.Task}  # model_of
     public = {getattr(rl, name) for name in rl.__all__ if callable(getattr(rl, name))}

@@ -240,7 +240,14 @@ def test_public_functions_show_an_example():
         elsewhere = "are those of `" in text  # of a function that shows one
         planner = thing in (rl.policy_iteration, rl.solve)  # called like value_iteration, which shows one
         rule = thing in (rl.q_learning_rule, rl.sarsa_rule)  # `learn` shows how a rule is used
-        result = thing.__name__ in ("Episode", "Evaluation", "Solution", "Training", "Transition")  # made by functions
+        result = thing.__name__ in (
+            "Episode",
+            "Evaluation",
+            "Prediction",
+            "Solution",
+            "Training",
+            "Transition",
+        )  # made by functions
         assert ">>>" in text or elsewhere or planner or rule or result, name
 
 

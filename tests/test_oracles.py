@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 import rlnav as rl
-from rlnav import _compile, learning, montecarlo, planning
+from rlnav import _compile, estimation, learning, montecarlo, planning
 
 from . import models
 from .strategies import mdps, policies
@@ -235,6 +235,7 @@ def test_a_rule_of_ones_own_gives_the_built_in_tables_to_the_last_bit(small_task
 KERNELS = {
     learning: ("_q_learning", "_sarsa", "_expected_sarsa", "_double_q_learning"),
     montecarlo: ("_monte_carlo",),
+    estimation: ("_td_prediction", "_mc_prediction"),
     planning: ("_greedy_sweep", "_policy_sweep", "_look_ahead"),
 }
 needs_numba = pytest.mark.skipif(_compile.njit is None, reason="without numba there is nothing to compare with")
@@ -255,6 +256,10 @@ def tables(learners):
                     key = f"{learner.__name__} slip={slip} {design} seed={seed}"
                     parts = (run.Q, run.returns, run.steps.astype(float), run.snapshots)
                     found[key] = [float(x).hex() for part in parts for x in part.ravel()]
+        for predictor in (rl.td_prediction, rl.mc_prediction):
+            run = predictor(mdp, np.full((mdp.S, mdp.A), 1 / mdp.A), **keywords, rng=0)
+            parts = (run.V, run.returns, run.steps.astype(float), run.snapshots)
+            found[f"{predictor.__name__} slip={slip}"] = [float(x).hex() for part in parts for x in part.ravel()]
         found[f"solve slip={slip}"] = [float(x).hex() for x in rl.solve(mdp).V]
     return found
 

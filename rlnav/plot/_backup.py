@@ -36,6 +36,7 @@ KINDS = {
     "q_pi": Kind(r"$q_\pi(s,a)$", ACTION_FIRST, (P, PI_NEXT), (3, 2)),
     "v_star": Kind(r"$v_*(s)$", STATE_FIRST, (BEST, P), (3, 2)),
     "q_star": Kind(r"$q_*(s,a)$", ACTION_FIRST, (P, BEST), (3, 2)),
+    "td": Kind(r"$V(s)$", STATE_FIRST, ("", SAMPLE), (1, 1)),
     "q_learning": Kind(r"$Q(s,a)$", ACTION_FIRST, (SAMPLE, BEST), (1, 3)),
     "sarsa": Kind(r"$Q(s,a)$", ACTION_FIRST, (SAMPLE, ""), (1, 1)),
     "expected_sarsa": Kind(r"$Q(s,a)$", ACTION_FIRST, (SAMPLE, PI_NEXT), (1, 3)),
@@ -74,7 +75,7 @@ def backup_diagram(kind: str, ax: Axes | None = None, *, numbers: Sequence[Any] 
     kind : str
         "v_pi" or "q_pi" (expectation, eqs. :eq:`eq-bellman-v` and :eq:`eq-bellman-q`), "v_star" or "q_star"
         (optimality, eqs. :eq:`eq-bellman-optimality-v` and :eq:`eq-bellman-optimality-q`), or a rule that backs up one
-        sampled step: "q_learning", "sarsa", "expected_sarsa".
+        sampled step: "td" (eq. :eq:`eq-td`), "q_learning", "sarsa", "expected_sarsa".
     ax : matplotlib.axes.Axes, optional
         Where to draw; new axes by default.
     numbers : tree, optional

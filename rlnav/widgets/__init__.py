@@ -14,6 +14,7 @@ from ._explorable import Explorable
 from ._feature_picker import FeaturePicker
 from ._live import Live
 from ._loop_debugger import LoopDebugger
+from ._merging_paths import MergingPaths
 from ._mystery_robot import MysteryRobot
 from ._one_update import OneUpdate
 from ._paint_policy import PaintPolicy
@@ -23,6 +24,7 @@ from ._reward_mixer import RewardMixer
 from ._simulator import Simulator
 from ._steering_bandit import SteeringBandit
 from ._steering_fan import SteeringFan
+from ._step_sizes import StepSizes
 from ._value_wave import ValueWave
 
 __all__ = [
@@ -34,6 +36,7 @@ __all__ = [
     "FeaturePicker",
     "Live",
     "LoopDebugger",
+    "MergingPaths",
     "MysteryRobot",
     "OneUpdate",
     "PaintPolicy",
@@ -43,5 +46,6 @@ __all__ = [
     "Simulator",
     "SteeringBandit",
     "SteeringFan",
+    "StepSizes",
     "ValueWave",
 ]
