@@ -94,6 +94,16 @@ def test_drives_fall_as_dots(page_of):
     expect(words(here)).to_contain_text("What will a single drive earn?")
 
 
+@pytest.mark.parametrize(
+    ("slip", "says"),
+    [(0.0, "the exact value −9.6: nothing is left"), (0.1, "and yet the exact value is −8.79")],
+)
+def test_drives_that_agree_are_taken_for_the_value_only_if_they_have_it(page_of, slip, says):
+    here = page_of(PaintPolicy(rl.Task(ROOM, rl.Robot(slip=slip)), START, drives=3))
+    expect(words(here)).to_contain_text("all 3 drives earned −9.6")
+    expect(words(here)).to_contain_text(says)
+
+
 def test_one_turn_that_is_painted_changes_what_it_is_worth(page_of):
     here = page_of(PaintPolicy(TASK, START, drives=50))
     here.page.get_by_role("radio", name="+45°").check()

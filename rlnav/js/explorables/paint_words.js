@@ -11,11 +11,17 @@ export function sentence(pose, { n, mean, sd, half }, v) {
   if (n === 0) return `${from}, this policy has the ${worth}. What will a single drive earn?`;
   const earned = written(mean, 2);
   if (n === 1) return `${from}, one drive earned ${earned}; the ${worth} is the mean of all that may come.`;
-  if (sd < 1e-9) return `${from}, all ${n} drives earned ${earned}, the ${worth}: nothing is left to chance.`;
+  if (sd < 1e-9) return alike(`${from}, all ${n} drives earned ${earned}`, mean, v);
   const holds = Math.abs(mean - v) <= half ? "holds" : "misses";
   const few = n < FEW ? " Few drives: do not trust this interval yet." : "";
   return `${from}, ${n.toLocaleString("en-US")} drives earned ${earned} on average. The 95 % interval, ` +
     `${written(mean - half, 2)} to ${written(mean + half, 2)}, ${holds} the ${worth}.${few}`;
+}
+
+/** Drives without any spread: chance may be out of it, or has only not shown itself yet. */
+function alike(so, mean, v) {
+  if (Math.abs(mean - v) < 0.005) return `${so}, the exact value ${written(v, 2)}: nothing is left to chance.`;
+  return `${so}, and yet the exact value is ${written(v, 2)}: they have not shown all that may come.`;
 }
 
 /** Compare with the policy that was kept. */
