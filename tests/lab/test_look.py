@@ -10,6 +10,7 @@ from canonical import canonical
 from execute import execute
 
 from ..widgets.arena import Arena
+from ..widgets.pages import first_button
 
 EXPLORABLES = {  # what each is made from; most need a task only
     "Aliasing": "task, here",
@@ -21,8 +22,11 @@ EXPLORABLES = {  # what each is made from; most need a task only
     "SteeringBandit": "task, here",
     "StepSizes": "rl.Task(task.world, rl.Robot(slip=0.2)), here, 45",
 }
-FIRST_BUTTON = ".rl-primary:visible, .rl-button:visible:not([aria-disabled=true])"
-TASK = "import rlnav as rl\ntask = rl.Task(rl.GridWorld.from_ascii('>...\\n.#..\\n...G'))"
+TASK = """
+import rlnav as rl
+task = rl.Task(rl.GridWorld.from_ascii(">...\\n.#..\\n...G"))
+here = rl.Pose(1, 2, 0)
+"""
 SIMULATOR = "import rlnav as rl\nrl.widgets.Simulator(episodes=20)"
 LUMINANCE = """element => {
   const canvas = document.createElement("canvas").getContext("2d");
@@ -45,7 +49,7 @@ def test_an_explorable_starts_and_tells_its_state_to_the_kernel(notebook, name):
     it.run()
     root = it.run(1).locator(".rlnav")
     it.tell("before = w.state")
-    root.locator(FIRST_BUTTON).first.click()
+    first_button(root).click()
     it.wait_until("w.state != before")
     assert root.get_by_role("alert").filter(has_text=re.compile(r"\w")).count() == 0
 

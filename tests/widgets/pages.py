@@ -62,3 +62,9 @@ def state_now(page, number=0):
 def settled(page):
     """Wait until what has just been done is drawn: a program draws in the next frame, and that may be late."""
     page.evaluate("() => new Promise(drawn => requestAnimationFrame(() => requestAnimationFrame(drawn)))")
+
+
+def first_button(explorable):
+    """Return the button that asks to be pressed: the colored one, or else the first below the title."""
+    colored = explorable.locator(".rl-primary:visible")
+    return (colored if colored.count() else explorable.locator(".rl-explorable-body .rl-button:visible")).first
