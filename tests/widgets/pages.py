@@ -67,4 +67,8 @@ def settled(page):
 def first_button(explorable):
     """Return the button that asks to be pressed: the colored one, or else the first below the title."""
     colored = explorable.locator(".rl-primary:visible")
-    return (colored if colored.count() else explorable.locator(".rl-explorable-body .rl-button:visible")).first
+    return (
+        colored
+        if colored.count()
+        else explorable.locator(".rl-explorable-body .rl-button:visible:not([aria-disabled=true])")
+    ).first
