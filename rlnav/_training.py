@@ -99,7 +99,7 @@ def train(
     max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     Q = _initial_table(Q0, int(phi.max()) + 1, mdp.A)
     after = snapshot_episodes(_check.integer("snapshots", snapshots, 0), episodes, Q.size)
-    log = _empty_log(episodes, after, Q)
+    log = empty_log(episodes, after, Q)
     loop(arrays(mdp), phi.astype(np.uint32), Q, alpha, epsilon, max_steps, _check.generator(rng), log)
     ended, success = mdp.terminal[log.last], mdp.goal[log.last]
     return Training(Q, greedy(Q), log.returns, log.steps, ended, success, log.tables, after)
@@ -146,7 +146,8 @@ def snapshot_episodes(n: int, episodes: int, size: int) -> NDArray[np.int64]:
     return np.round(np.linspace(0, episodes, n + 1)[1:]).astype(np.int64)
 
 
-def _empty_log(episodes: int, after: NDArray[np.int64], Q: NDArray) -> Log:
+def empty_log(episodes: int, after: NDArray[np.int64], table: NDArray) -> Log:
+    """Make room for what a loop writes down, and for copies of `table` after some of the episodes."""
     slot = np.full(episodes, -1)
     slot[after - 1] = np.arange(after.size)
     return Log(
@@ -154,5 +155,5 @@ def _empty_log(episodes: int, after: NDArray[np.int64], Q: NDArray) -> Log:
         np.zeros(episodes, np.int64),
         np.zeros(episodes, np.int64),
         slot,
-        np.zeros((after.size, *Q.shape)),
+        np.zeros((after.size, *table.shape)),
     )

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _check
 from ._compile import inline, kernel
 from ._sampling import arrays, draw_from, draw_start, step
-from ._training import MOST_EPISODES, schedule, snapshot_episodes
+from ._training import MOST_EPISODES, empty_log, schedule, snapshot_episodes
 from .mdp import MDP, check_policy
 
 
@@ -52,16 +51,6 @@ class Prediction:
 
     def __repr__(self) -> str:
         return f"Prediction({self.steps.size:,} episodes, {self.steps.sum():,} steps, {self.V.size:,} values)"
-
-
-class Log(NamedTuple):
-    """What a loop writes down at the end of each episode."""
-
-    returns: NDArray[np.float64]
-    steps: NDArray[np.int64]
-    last: NDArray[np.int64]  # the state in which the episode stopped
-    slot: NDArray[np.int64]  # where in `tables` to keep a copy after this episode, or -1
-    tables: NDArray[np.float64]
 
 
 def td_prediction(
@@ -161,10 +150,7 @@ def _predict(
     max_steps = _check.integer("max_steps", max_steps, 1, _check.MOST_STEPS)
     V = _initial_values(V0, mdp)
     after = snapshot_episodes(_check.integer("snapshots", snapshots, 0), episodes, V.size)
-    slot = np.full(episodes, -1)
-    slot[after - 1] = np.arange(after.size)
-    whole = np.zeros((2, episodes), np.int64)
-    log = Log(np.zeros(episodes), whole[0], whole[1], slot, np.zeros((after.size, V.size)))
+    log = empty_log(episodes, after, V)
     loop(arrays(mdp), chances, V, alpha, max_steps, _check.generator(rng), log)
     return Prediction(V, log.returns, log.steps, mdp.terminal[log.last], log.tables, after)
 

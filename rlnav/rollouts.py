@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _check
-from ._sampling import arrays, draw_start, step
+from ._sampling import arrays, draw_from, draw_start, step
 from .mdp import MDP, check_policy
 
 
@@ -85,7 +85,7 @@ def rollout(mdp: MDP, pi: ArrayLike, *, start: int | None = None, max_steps: int
     rewards: list[float] = []
     while len(actions) < max_steps and not mdp.terminal[s]:
         which, luck = generator.random(), generator.random()
-        a = int(pi[s]) if pi.ndim == 1 else int(min((which >= pi[s].cumsum()).sum(), np.flatnonzero(pi[s])[-1]))
+        a = int(pi[s]) if pi.ndim == 1 else draw_from(pi, s, which)
         s, r, _ = step(model, s, a, luck)
         s = int(s)
         states.append(s)
