@@ -137,10 +137,10 @@ class FeaturePicker(Explorable):
     @property
     def alt(self) -> str:
         """What the still picture shows."""
-        return "Map with the poses that share one row of the table with the start pose of the map, as arrowheads."
+        return "Map with an arrowhead for each pose of the fullest row of the table: to the robot they all look alike."
 
     def still(self) -> Any:
-        """Draw the poses of the row that mixes most poses."""
+        """Draw the poses of the row that holds most of them."""
         task = self.task
         mdp, phi = task.mdp(), task.phi()
         table = self.table

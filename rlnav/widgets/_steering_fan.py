@@ -85,11 +85,16 @@ class SteeringFan(Explorable):
         return steps
 
     @property
+    def _horizon(self) -> str:
+        k = self.state["steps"]
+        return f"{k} step{'' if k == 1 else 's'}"
+
+    @property
     def alt(self) -> str:
         """What the still picture shows."""
         x, y, theta = self.state["pose"]
         where = f"from cell ({x}, {y}), heading {theta} degrees"
-        return f"Map with an arrowhead for every pose that the robot can reach {where}, in {self.state['steps']} steps."
+        return f"Map with an arrowhead for every pose that the robot can reach {where}, within {self._horizon}."
 
     def still(self) -> Any:
         """Draw an arrowhead for every pose that can be reached, the brighter the later."""
@@ -103,4 +108,4 @@ class SteeringFan(Explorable):
         x, y, theta = self.state["pose"]
         draw_robot(ax, x, y, theta, BLUE)
         cells = len({(task.poses[s].x, task.poses[s].y) for s in np.flatnonzero(reach >= 0)})
-        return ax, f"Within {self.state['steps']} steps: {(reach >= 0).sum()} poses on {cells} cells."
+        return ax, f"Within {self._horizon}: {(reach >= 0).sum()} poses on {cells} cells."
