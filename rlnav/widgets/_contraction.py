@@ -55,7 +55,7 @@ class Contraction(TaskExplorable):
     >>> import rlnav as rl
     >>> pair = rl.widgets.Contraction(rl.Task(rl.GridWorld.from_ascii(">..G")), backups=1)
     >>> pair.distances.round(2)
-    array([40., 38.])
+    array([40. , 28.9])
     """
 
     entry = "explorables/contraction"
