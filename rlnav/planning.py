@@ -51,7 +51,7 @@ class Solution:
     def __repr__(self) -> str:
         end = "converged" if self.converged else "not converged"
         n = self.residuals.size
-        return f"Solution({self.V.size:,} states, {n} sweep{'s' * (n != 1)}, {end})"
+        return f"Solution({self.V.size:,} states, {n} iteration{'s' * (n != 1)}, {end})"
 
 
 def value_iteration(mdp: MDP, *, tol: float = 1e-8, max_sweeps: int | None = None) -> Solution:
