@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterable
 
 import numpy as np
 from matplotlib import pyplot as plt
@@ -10,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 from matplotlib.ticker import MultipleLocator
-from matplotlib.transforms import Affine2D
+from matplotlib.transforms import Affine2D, ScaledTranslation
 
 from .. import _check
 from ..robot import HEADINGS
@@ -95,8 +96,13 @@ def turned(glyph: Path, x: float, y: float, theta: float = 0.0, size: float = 1.
 
 def draw_robot(ax: Axes, x: float, y: float, theta: int, color: str, size: float = 1.0) -> None:
     """Draw the robot as an arrowhead that points where it looks."""
-    shape = turned(ROBOT, x, y, theta, size)
-    ax.add_patch(PathPatch(shape, facecolor=color, edgecolor="white", linewidth=0.8, zorder=6))
+    draw_robots(ax, [(x, y, theta)], color, size)
+
+
+def draw_robots(ax: Axes, where: Iterable[tuple[float, float, int]], color: str, size: float = 1.0) -> None:
+    """Draw the robot at several places (x, y, theta), as one element."""
+    shapes = Path.make_compound_path(*(turned(ROBOT, *place, size) for place in where))
+    ax.add_patch(PathPatch(shapes, facecolor=color, edgecolor="white", linewidth=0.8, zorder=6))
 
 
 def arrow(theta: int) -> str:
@@ -129,6 +135,9 @@ def _draw_frame(ax: Axes, place: GridWorld) -> None:
     ax.grid(False)
     ax.set(xlabel="x (cells)", ylabel="y (cells)", aspect="equal")
     ax.set(xlim=(-0.5, place.width - 0.5), ylim=(-0.5, place.height - 0.5))
+    # Names of axes at a fixed distance, beyond numbers of two digits: to find their places would be a fifth of all work
+    for axis, middle, away in ((ax.xaxis, (0.5, 0), (0, -0.24)), (ax.yaxis, (0, 0.5), (-0.27, 0))):
+        axis.set_label_coords(*middle, ax.transAxes + ScaledTranslation(*away, ax.figure.dpi_scale_trans))
     for axis, n in ((ax.xaxis, place.width), (ax.yaxis, place.height)):
         axis.set_major_locator(MultipleLocator(next(step for step in (1, 2, 5, 10, 20, 50) if n <= 15 * step)))
 

@@ -14,7 +14,7 @@ from .. import _check
 from ..robot import Pose
 from ..rollouts import Episode
 from ..task import Task
-from ._ground import draw_robot, ground, turned
+from ._ground import draw_robots, ground, turned
 from ._look import COLORS, INK, LINES, SMALL, joined
 
 APART = 0.09  # cells between two paths on the same way
@@ -110,8 +110,7 @@ def _draw_path(ax: Axes, task: Task, episode: Episode, k: int, name: str, shift:
     _draw_mark(ax, turned(DISC, *way[0]), "white", color)
     if episode.truncated:
         _draw_mark(ax, turned(BOX, *way[-1]), "white", color)
-    for pose, (x, y) in zip(poses, way, strict=True):
-        draw_robot(ax, x, y, pose.theta, color, size=0.6)
+    draw_robots(ax, ((x, y, pose.theta) for pose, (x, y) in zip(poses, way, strict=True)), color, size=0.6)
     for x, y in crash:
         _draw_mark(ax, turned(CROSS, x, y), "none", "white", linewidth=5)
         _draw_mark(ax, turned(CROSS, x, y), "none", color, linewidth=2.5)
