@@ -63,11 +63,12 @@ def waits(control: Any) -> Iterator[float]:
             yield 1000 * (time.process_time() - began)
 
 
-def rows(notebook: Path) -> Iterator[tuple[object, ...]]:
-    """Yield chapter, control's function, control, and the median and the longest answer in milliseconds."""
+def rows(notebook: Path) -> list[tuple[object, ...]]:
+    """List chapter, control's function, control, and the median and the longest answer in milliseconds."""
     mpl.use("module://matplotlib_inline.backend_inline")
-    with mpl.rc_context():
-        for live in made_by(notebook):
-            for name, control in live.controls.items():
-                if answers := list(waits(control)):
-                    yield notebook.stem, repr(live).partition("\n")[0], name, float(np.median(answers)), max(answers)
+    answers = [
+        (repr(live).partition("\n")[0], name, list(waits(control)))
+        for live in made_by(notebook)
+        for name, control in live.controls.items()
+    ]
+    return [(notebook.stem, *control, float(np.median(took)), max(took)) for *control, took in answers if took]

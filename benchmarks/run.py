@@ -12,7 +12,9 @@ import argparse
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
 from functools import partial
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -118,8 +120,11 @@ def book() -> Rows:
 def waits() -> Rows:
     """Measure what a reader waits for after moving a control of a chapter."""
     yield "notebook", "controls", "control", "CPU ms, median", "most"
-    for path in notebooks():
-        yield from controls.rows(path)
+    alone = ProcessPoolExecutor(
+        1, get_context("spawn"), max_tasks_per_child=1
+    )  # what a chapter leaves in memory counts
+    for rows in alone.map(controls.rows, notebooks()):
+        yield from rows
 
 
 def notebooks() -> list[Path]:
