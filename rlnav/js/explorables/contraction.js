@@ -5,7 +5,7 @@
 import { Pose } from "../robot.js";
 import { policyOf, valuesOf } from "../scenario/backup.js";
 import { guessOf, Pair } from "../scenario/contraction.js";
-import { choice, segmented, toolbar } from "../views/controls.js";
+import { choice, segmented } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
@@ -15,10 +15,10 @@ import { Ruler } from "./contraction_ruler.js";
 import { BackupTable } from "./contraction_table.js";
 import { sentence } from "./contraction_words.js";
 import { pair as columns } from "./figure.js";
-import { keptOrNot, MapCursor } from "./map_cursor.js";
+import { keptOrNot, keysHelp, MapCursor } from "./map_cursor.js";
 import { poseInWords, timed, written } from "./naming.js";
 import { Walk } from "./playback.js";
-import { keysHelp, TaskFigure } from "./task_figure.js";
+import { TaskFigure } from "./task_figure.js";
 
 const BACKUPS_A_SECOND = 2.5;
 const GUESSES = [
@@ -81,12 +81,11 @@ class Contraction extends TaskFigure {
       speed: BACKUPS_A_SECOND,
     });
     this.player = this.walk.player;
-    const tools = toolbar({ label: "Backups", children: [this.walk.back, this.player, this.walk.next] });
     const mean = ["mean", "mean of π", "All actions count, as often as π takes them"];
     const options = [["max", "max", "The best action counts"], mean];
     const onChange = (backup) => this.change({ backup });
     this.backup = segmented({ label: "Each backup takes the", options, onChange });
-    return h("div", { class: "rl-run rl-guess-run" }, tools.element, this.backup.element);
+    return h("div", { class: "rl-run rl-guess-run" }, this.walk.row("Backups"), this.backup.element);
   }
 
   // ---------------------------------------------------------------- the state

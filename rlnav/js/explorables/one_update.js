@@ -8,7 +8,7 @@ import { ALGORITHMS, judge, partsOf, ruleOf } from "../scenario/update.js";
 import { scaleOf } from "../scenario/wave.js";
 import { solve } from "../planning.js";
 import { unpackAll } from "../views/arrays.js";
-import { choice, group, number, segmented, slider, toggle, toolbar } from "../views/controls.js";
+import { choice, group, number, segmented, slider, toggle } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
@@ -81,8 +81,7 @@ class OneUpdate extends TaskFigure {
       onChange: () => this.arrive(),
     });
     this.player = this.walk.player;
-    const tools = toolbar({ label: "Steps", children: [this.walk.back, this.player, this.walk.next] });
-    return h("div", { class: "rl-run" }, tools.element);
+    return h("div", { class: "rl-run" }, this.walk.row("Steps"));
   }
 
   buildJumps() {

@@ -12,11 +12,11 @@ import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { DotAxis } from "./dot_axis.js";
 import { pair } from "./figure.js";
-import { MapCursor } from "./map_cursor.js";
+import { headingChoice, keysHelp, MapCursor } from "./map_cursor.js";
 import { poseInWords, turnText, written } from "./naming.js";
 import { mapOf, scaleOf } from "./paint_picture.js";
 import { comparison, sentence } from "./paint_words.js";
-import { headingChoice, keysHelp, TaskFigure } from "./task_figure.js";
+import { TaskFigure } from "./task_figure.js";
 
 const MAX_STEPS = 1000; // of one drive; what comes later counts less than 0.0001
 const MOST_DRIVES = 2000;
@@ -95,7 +95,8 @@ class PaintPolicy extends TaskFigure {
 
   buildSettings() {
     const row = h("div", { class: "rl-row" }, this.buildSlip(0.5), this.buildGamma(0.99));
-    return h("div", {}, row, keysHelp("Keys on the map: arrows move, R turns the heading, Enter does what a press does."));
+    const keys = "Keys on the map: arrows move, R turns the heading, Enter does what a press does.";
+    return h("div", {}, row, keysHelp(keys));
   }
 
   // ---------------------------------------------------------------- changing

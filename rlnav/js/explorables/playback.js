@@ -1,7 +1,7 @@
 /**
  * Playing by itself: a button that plays and pauses, and the buttons of a sequence, one back and one on.
  */
-import { button } from "../views/controls.js";
+import { button, toolbar } from "../views/controls.js";
 import { Player } from "../views/player.js";
 
 /** A player with the button that works it. */
@@ -59,6 +59,11 @@ export class Walk {
       onChange: () => figure.drawButtons(),
       ...play,
     });
+  }
+
+  /** The three buttons in one row. */
+  row(label) {
+    return toolbar({ label, children: [this.back, this.player, this.next] }).element;
   }
 
   /** Block what cannot be done, for a reason. */

@@ -9,12 +9,12 @@ import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { pair } from "./figure.js";
-import { MapCursor } from "./map_cursor.js";
+import { headingChoice, keysHelp, MapCursor } from "./map_cursor.js";
 import { PlayButton } from "./playback.js";
 import { curvesOf, mapOf, scaleOf } from "./rounds_picture.js";
 import { RunsTable, StepTable } from "./rounds_tables.js";
 import { aboutPose, sentence } from "./rounds_words.js";
-import { headingChoice, keysHelp, TaskFigure } from "./task_figure.js";
+import { TaskFigure } from "./task_figure.js";
 
 const PACE = 6; // steps in a second of a run: time to see what each brings ...
 const QUICK = 40; // ... and of one with so many sweeps that nobody would wait for them

@@ -12,10 +12,9 @@ import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { FanPicture } from "./fan_picture.js";
 import { movesInWords, sentence } from "./fan_words.js";
-import { pair } from "./figure.js";
-import { MapCursor } from "./map_cursor.js";
+import { Figure, pair } from "./figure.js";
+import { keysHelp, MapCursor } from "./map_cursor.js";
 import { poseInWords, turnText } from "./naming.js";
-import { keysHelp, TaskFigure } from "./task_figure.js";
 import { Walls } from "./walls.js";
 
 const TURNS = [-180, -135, -90, -45, 0, 45, 90, 135, 180];
@@ -28,7 +27,7 @@ export function start(stage) {
   new SteeringFan(stage).open();
 }
 
-class SteeringFan extends TaskFigure {
+class SteeringFan extends Figure {
   constructor(stage) {
     super(stage, "Where can the robot be in a few steps?");
     this.hovered = null; // a pose that is pointed at
@@ -136,7 +135,8 @@ class SteeringFan extends TaskFigure {
 
   // ---------------------------------------------------------------- the map
   press(event) {
-    if (!this.walls.press(event) && event.type === "down" && event.button === 0) this.place(event.x, event.y, event.theta);
+    const { type, x, y, theta, button: pressed } = event;
+    if (!this.walls.press(event) && type === "down" && pressed === 0) this.place(x, y, theta);
   }
 
   /** Put the robot on a pose. */

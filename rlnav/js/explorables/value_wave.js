@@ -3,7 +3,7 @@
  */
 import { Pose } from "../robot.js";
 import { scaleOf, Wave } from "../scenario/wave.js";
-import { segmented, slider, toolbar } from "../views/controls.js";
+import { segmented, slider } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
@@ -11,10 +11,10 @@ import { Legend } from "../views/legend.js";
 import { Player } from "../views/player.js";
 import { pair } from "./figure.js";
 import { LookAhead } from "./look_ahead.js";
-import { keptOrNot, MapCursor } from "./map_cursor.js";
+import { headingChoice, keptOrNot, keysHelp, MapCursor } from "./map_cursor.js";
 import { poseInWords, written } from "./naming.js";
 import { Walk } from "./playback.js";
-import { headingChoice, keysHelp, TaskFigure } from "./task_figure.js";
+import { TaskFigure } from "./task_figure.js";
 import { Walls } from "./walls.js";
 import { curvesOf, mapOf } from "./wave_picture.js";
 import { sentence } from "./wave_words.js";
@@ -84,9 +84,8 @@ class ValueWave extends TaskFigure {
       speed: SWEEPS_A_SECOND,
     });
     this.player = this.walk.player;
-    const tools = toolbar({ label: "Sweeps", children: [this.walk.back, this.player, this.walk.next] });
     this.scrubber = slider({ label: "Sweep", min: 0, max: 1, step: 1, value: 0, onInput: (k) => this.go(k) });
-    return h("div", { class: "rl-run rl-scrubbed" }, tools.element, this.scrubber.element);
+    return h("div", { class: "rl-run rl-scrubbed" }, this.walk.row("Sweeps"), this.scrubber.element);
   }
 
   /** What the planner is told. */
