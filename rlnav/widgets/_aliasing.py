@@ -10,12 +10,13 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from .. import plot
-from .._check import fail, integer, items
+from .._check import fail, integer
 from ..plot._ground import arrow, draw_robot
 from ..plot._look import COLORS, INK, SMALL, plain
 from ..robot import Pose
 from ..task import Task
 from . import _scenario
+from ._poses import listed, pose_of
 from ._problem import TaskExplorable, turn_text
 
 PERCEPTIONS = ("cell", "heading", "pose")
@@ -80,17 +81,14 @@ class Aliasing(TaskExplorable):
         drives: int = 0,
         seed: int = 0,
     ) -> None:
-        place = [pose.x, pose.y, pose.theta] if isinstance(pose, Pose) else pose
-        super().__init__(task, None, {"perceive": perceive, "pose": place, "turn": turn, "drives": drives}, seed=seed)
+        state = {"perceive": perceive, "pose": listed(pose), "turn": turn, "drives": drives}
+        super().__init__(task, None, state, seed=seed)
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
         """Return the state with a complete scenario, and a pose from which the robot can drive."""
         state = super().checked(state)
         _scenario.one_of("perceive", state["perceive"], PERCEPTIONS)
-        numbers = items("pose", state["pose"], "a pose [x, y, theta]")
-        if len(numbers) != 3:
-            fail("pose", "a pose [x, y, theta]", f"{len(numbers)} numbers")
-        pose, task = Pose(*numbers), _scenario.task_of(state["scenario"], self._own)
+        pose, task = pose_of(state["pose"]), _scenario.task_of(state["scenario"], self._own)
         if task.mdp().terminal[task.index(pose)]:
             fail("pose", "a pose from which the robot can drive", f"{pose}, the goal")
         if state["turn"] not in task.robot.steering:
@@ -98,7 +96,7 @@ class Aliasing(TaskExplorable):
         if state["before"] is not None:
             integer("before", state["before"], 0)
         drives = integer("drives", state["drives"], 0, MOST_DRIVES)
-        return {**state, "pose": [pose.x, pose.y, pose.theta], "drives": drives}
+        return {**state, "pose": listed(pose), "drives": drives}
 
     @property
     def helps(self) -> float:

@@ -79,9 +79,11 @@ def programs(entry: str) -> dict[str, str]:
 
 @cache
 def stylesheet(entry: str) -> str:
-    """Return the style of an entry: that of the shared views, of its folder, and its own, as far as they exist."""
-    folder, name = posixpath.split(entry)
-    paths = dict.fromkeys(["views/views.css", f"{folder}/{posixpath.basename(folder)}.css", f"{folder}/{name}.css"])
+    """Return the style of an entry: that of the shared views, of its folder, and of the modules that have one."""
+    folder = posixpath.dirname(entry)
+    modules = _modules(_roots(entry))
+    own = [f"{path.removesuffix('.js')}.css" for path in modules | _modules(_parts(modules))]
+    paths = dict.fromkeys(["views/views.css", f"{folder}/{posixpath.basename(folder)}.css", *own])
     return "".join(squeezed_css(read(path)) for path in paths if exists(path))
 
 

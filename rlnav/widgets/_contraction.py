@@ -9,13 +9,14 @@ from matplotlib import pyplot as plt
 from numpy.typing import ArrayLike, NDArray
 
 from .. import plot
-from .._check import fail, instance, integer, items, show
+from .._check import fail, integer, items, show
 from ..mdp import MDP, action_values
 from ..planning import solve
 from ..prediction import evaluate_policy
 from ..robot import Pose
 from ..task import Task
 from . import _scenario
+from ._poses import listed, pose_of
 from ._problem import TaskExplorable
 
 REACH = 20.0  # how high and how low a guess may be
@@ -79,8 +80,7 @@ class Contraction(TaskExplorable):
         seed: int = 0,
         pose: Pose | None = None,
     ) -> None:
-        place = None if pose is None else [instance("pose", pose, Pose).x, pose.y, pose.theta]
-        state = {"guesses": guesses, "backup": backup, "backups": backups, "seed": seed, "pose": place}
+        state = {"guesses": guesses, "backup": backup, "backups": backups, "seed": seed, "pose": listed(pose)}
         super().__init__(task, policy, state)
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
@@ -93,9 +93,9 @@ class Contraction(TaskExplorable):
             _scenario.one_of("guesses", guess, GUESSES)
         _scenario.one_of("backup", state["backup"], BACKUPS)
         if state["pose"] is not None:
-            pose = Pose(*items("pose", state["pose"], "[x, y, theta]"))
+            pose = pose_of(state["pose"])
             _scenario.task_of(state["scenario"], self._own).index(pose)
-            state["pose"] = [pose.x, pose.y, pose.theta]
+            state["pose"] = listed(pose)
         numbers = {name: integer(name, state[name], 0) for name in ("backups", "seed")}
         return {**state, **numbers, "guesses": guesses}
 

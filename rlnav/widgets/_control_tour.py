@@ -14,6 +14,7 @@ from ..task import Task
 from ..world import GridWorld
 from . import _scenario
 from ._explorable import Explorable
+from ._poses import listed, pose_of
 from ._problem import turn_text
 
 KINDS = ("step", "back", "play", "slider", "number", "menu", "box", "map", "again", "lecture")
@@ -68,16 +69,16 @@ class ControlTour(Explorable):
         trail: bool = True,
     ) -> None:
         instance("pose", pose, Pose)
-        super().__init__({"pose": [pose.x, pose.y, pose.theta], "turn": turn, "steps": steps, "trail": trail})
+        super().__init__({"pose": listed(pose), "turn": turn, "steps": steps, "trail": trail})
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
         """Return the state, with a pose on which a drive can begin."""
         state = super().checked(state)
-        pose, task = Pose(*items("pose", state["pose"], "a pose [x, y, theta]")), round_task()
+        pose, task = pose_of(state["pose"]), round_task()
         task.index(pose)
         if (pose.x, pose.y) == task.world.goal:
             fail("pose", "on a free cell away from the star", str(pose))
-        state["pose"] = [pose.x, pose.y, pose.theta]
+        state["pose"] = listed(pose)
         state["turn"] = integer("turn", state["turn"])
         if state["turn"] not in task.robot.steering:
             fail("turn", f"one of {', '.join(map(str, task.robot.steering))}", show(state["turn"]))

@@ -11,14 +11,15 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from .. import plot
-from .._check import fail, integer, items, number, show
+from .._check import fail, integer, number, show
 from ..designs import distance
 from ..plot._look import COLORS, INK, plain
 from ..prediction import evaluate_policy
-from ..robot import HEADINGS, Pose
+from ..robot import Pose
 from ..rollouts import returns, rollout
 from ..task import Task
 from . import _scenario
+from ._poses import check_heading, listed, pose_of
 from ._problem import TaskExplorable
 
 FILLS = ("straight", "goal", "random")
@@ -86,9 +87,8 @@ class PaintPolicy(TaskExplorable):
         seed: int = 0,
         heading: int | None = None,
     ) -> None:
-        place = [pose.x, pose.y, pose.theta] if isinstance(pose, Pose) else pose
         signs = {"policy": _filled(task, policy), "kept": None if kept is None else _filled(task, kept)}
-        super().__init__(task, None, {**signs, "pose": place, "drives": drives, "heading": heading}, seed=seed)
+        super().__init__(task, None, {**signs, "pose": listed(pose), "drives": drives, "heading": heading}, seed=seed)
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
         """Return the state with a complete scenario, policies of the task, and a pose to start from."""
@@ -98,18 +98,14 @@ class PaintPolicy(TaskExplorable):
         for name in ("policy", "kept"):
             if name == "policy" or state[name] is not None:
                 _chances(name, state[name], task)
-        numbers = items("pose", state["pose"], "a pose [x, y, theta]")
-        if len(numbers) != 3:
-            fail("pose", "a pose [x, y, theta]", f"{len(numbers)} numbers")
-        pose = Pose(*numbers)
+        pose = pose_of(state["pose"])
         if task.index(pose) >= 0 and (pose.x, pose.y) == task.world.goal:
             fail("pose", "a pose from which the robot can drive", f"{pose}, the goal")
-        if state["heading"] is not None:
-            _scenario.one_of("heading", str(state["heading"]), [str(theta) for theta in HEADINGS])
+        check_heading(state["heading"])
         brushes = ("start", *FILLS, *map(str, range(len(task.robot.steering))))
         _scenario.one_of("brush", state["brush"], brushes)
         drives = integer("drives", state["drives"], 0, MOST_DRIVES)
-        return {**state, "pose": [pose.x, pose.y, pose.theta], "drives": drives}
+        return {**state, "pose": listed(pose), "drives": drives}
 
     @property
     def pi(self) -> NDArray[np.float64]:

@@ -13,9 +13,9 @@ from .._check import fail, items, number, show
 from ..mdp import TIE, action_values, greedy
 from ..planning import solve
 from ..prediction import evaluate_policy
-from ..robot import HEADINGS
 from ..task import Task
 from . import _scenario
+from ._poses import check_heading
 from ._problem import TaskExplorable
 from ._value_wave import MOST_GAMMA
 
@@ -95,8 +95,7 @@ class PolicyIteration(TaskExplorable):
         if not isinstance(moves, str) or set(moves) - {SWEEP, IMPROVE} or len(moves) > MOST_STEPS:
             fail("moves", f"at most {MOST_STEPS} letters 's' (sweep) and 'i' (improve)", show(moves))
         _scenario.one_of("show", state["show"], SHOWN)
-        if state["heading"] is not None:
-            _scenario.one_of("heading", str(state["heading"]), map(str, HEADINGS))
+        check_heading(state["heading"])
         for name, amounts in (("sweeps", [state["sweeps"]]), ("tried", items("tried", state["tried"], "numbers"))):
             if any(isinstance(n, bool) or n not in AMOUNTS for n in amounts):
                 fail(name, "1, 3, 10, 30 or None", show(state[name]))

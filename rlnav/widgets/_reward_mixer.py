@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import plot
-from .._check import fail, instance, items, number
+from .._check import fail, instance, number
 from ..designs import Reward
 from ..mdp import MDP
 from ..planning import evaluate_policy, solve
@@ -18,6 +18,7 @@ from ..rollouts import Episode, rollout
 from ..task import Task
 from . import _scenario
 from ._explorable import Explorable
+from ._poses import listed, pose_of
 
 MOST_GAMMA = 0.99  # at 1, what a circle pays has no end
 EXACT = 1e-12
@@ -74,7 +75,7 @@ class RewardMixer(Explorable):
         state = {
             "scenario": _scenario.scenario_of(mixed, **learner),
             "task_reward": _scenario.scenario_of(task)["reward"],
-            "pose": None if pose is None else [pose.x, pose.y, pose.theta],
+            "pose": listed(pose),
         }
         super().__init__(state)
 
@@ -88,10 +89,10 @@ class RewardMixer(Explorable):
         reward = _scenario.checked({"reward": state["task_reward"]})["reward"]
         task = _scenario.task_of(scenario)
         if state["pose"] is not None:
-            pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
+            pose = pose_of(state["pose"])
             if task.mdp().terminal[task.index(pose)]:
                 fail("pose", "a pose away from the goal", f"{pose}")
-            state["pose"] = [pose.x, pose.y, pose.theta]
+            state["pose"] = listed(pose)
         return {**state, "scenario": scenario, "task_reward": reward}
 
     # ------------------------------------------------------------ what a reward asks for

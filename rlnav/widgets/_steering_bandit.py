@@ -17,6 +17,7 @@ from ..robot import Pose, Robot
 from ..rollouts import rollout
 from ..task import Task
 from . import _scenario
+from ._poses import listed, pose_of
 from ._problem import TaskExplorable, turn_text
 
 ODDS = np.array([1, 4, 6, 4, 1]) / 16  # of the noise -2, -1, 0, 1 and 2 standard deviations
@@ -96,9 +97,9 @@ class SteeringBandit(TaskExplorable):
         """Return the state with a complete scenario, and a pose at which there is something to choose."""
         state = super().checked(state)
         task = _scenario.task_of(state["scenario"], self._own)
-        pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
+        pose = pose_of(state["pose"])
         task.index(pose)
-        state["pose"] = [pose.x, pose.y, pose.theta]
+        state["pose"] = listed(pose)
         state["noise"] = number("noise", state["noise"], 0)
         A = len(task.robot.steering)
         turns = items("turns", state["turns"], f"at most {BY_HAND} actions")

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import plot
-from .._check import fail, integer, items
+from .._check import fail, integer
 from ..plot._ground import draw_robot
 from ..plot._look import BLUE, SEQUENTIAL
 from ..robot import Pose, Robot
 from ..task import Task
 from . import _scenario
 from ._explorable import Explorable
+from ._poses import listed, pose_of
 
 MOST_STEPS = 12
 
@@ -52,20 +53,20 @@ class SteeringFan(Explorable):
     def __init__(self, task: Task, pose: Pose | None = None, *, steps: int = 1, told: int | None = None) -> None:
         scenario = {**_scenario.scenario_of(task), "starts": None}
         pose = task.world.starts[0] if pose is None else pose
-        super().__init__({"scenario": scenario, "pose": [pose.x, pose.y, pose.theta], "steps": steps, "told": told})
+        super().__init__({"scenario": scenario, "pose": listed(pose), "steps": steps, "told": told})
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
         """Return the state with a complete scenario, in which the robot stands on a free cell."""
         state = super().checked(state)
         scenario = {**_scenario.checked(state["scenario"]), "starts": None}
         task = _scenario.task_of(scenario)
-        pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
+        pose = pose_of(state["pose"])
         if task.mdp().terminal[task.index(pose)]:
             fail("pose", "away from the goal", f"{pose}")
         if state["told"] is not None and integer("told", state["told"]) not in task.robot.steering:
             fail("told", f"one of the steerings {task.robot.steering}, or None", f"{state['told']}")
         steps = integer("steps", state["steps"], 0, MOST_STEPS)
-        return {**state, "scenario": scenario, "pose": [pose.x, pose.y, pose.theta], "steps": steps}
+        return {**state, "scenario": scenario, "pose": listed(pose), "steps": steps}
 
     @property
     def task(self) -> Task:

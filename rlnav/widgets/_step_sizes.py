@@ -9,13 +9,14 @@ from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
-from .._check import fail, integer, items, number
+from .._check import fail, integer, number
 from ..learning import learn, q_learning_rule
 from ..mdp import MDP
 from ..planning import solve
 from ..robot import Pose
 from ..task import Task
 from . import _scenario
+from ._poses import listed, pose_of
 from ._problem import TaskExplorable
 
 KINDS = ("constant", "power", "linear", "halving")
@@ -92,7 +93,7 @@ class StepSizes(TaskExplorable):
         shown: int = 0,
         seed: int = 0,
     ) -> None:
-        place = [pose.x, pose.y, pose.theta]
+        place = listed(pose)
         state = {"kind": kind, "c": c, "p": p, "until": until, "watch": watch, "shown": shown}
         super().__init__(task, None, {"pose": place, "steering": steering, **state}, seed=seed)
 
@@ -102,7 +103,7 @@ class StepSizes(TaskExplorable):
         task = _scenario.task_of(state["scenario"], self._own)
         if task.mdp().S > MOST_STATES:
             fail("task", f"a task of at most {MOST_STATES} states", str(task.mdp().S))
-        pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
+        pose = pose_of(state["pose"])
         task.index(pose)
         if state["steering"] not in task.robot.steering:
             options = ", ".join(map(str, task.robot.steering))
@@ -111,7 +112,7 @@ class StepSizes(TaskExplorable):
         _scenario.one_of("watch", state["watch"], WATCHED)
         return {
             **state,
-            "pose": [pose.x, pose.y, pose.theta],
+            "pose": listed(pose),
             "c": number("c", state["c"], 0, 1, above=True),
             "p": number("p", state["p"], 0, 2),
             "until": integer("until", state["until"], 1, LONGEST),

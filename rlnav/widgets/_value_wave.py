@@ -9,13 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import plot
-from .._check import integer, items, number
+from .._check import integer, number
 from ..planning import solve, value_iteration
 from ..plot._look import limits
-from ..robot import HEADINGS, Pose
+from ..robot import Pose
 from ..task import Task
 from . import _scenario
 from ._explorable import Explorable
+from ._poses import check_heading, listed, pose_of
 from ._problem import task_tables
 
 MOST_GAMMA = 0.99  # with more, the promise of the residual says next to nothing
@@ -80,8 +81,7 @@ class ValueWave(Explorable):
         task = task if gamma is None else replace(task, gamma=gamma)
         scenario = _scenario.scenario_of(task)
         self._own = _scenario.own_designs(task)
-        place = None if pose is None else [pose.x, pose.y, pose.theta]
-        state = {"tol": tol, "sweep": sweep, "heading": heading, "show": show, "pose": place}
+        state = {"tol": tol, "sweep": sweep, "heading": heading, "show": show, "pose": listed(pose)}
         super().__init__({"scenario": scenario, **state}, tables=task_tables(scenario, self._own, {}))
 
     def checked(self, state: dict[str, Any]) -> dict[str, Any]:
@@ -90,12 +90,11 @@ class ValueWave(Explorable):
         scenario = _scenario.checked(state["scenario"])
         number("gamma", scenario["gamma"], 0, MOST_GAMMA)
         task = self._task(scenario)
-        if state["heading"] is not None:
-            _scenario.one_of("heading", str(state["heading"]), map(str, HEADINGS))
+        check_heading(state["heading"])
         if state["pose"] is not None:
-            pose = Pose(*items("pose", state["pose"], "a pose [x, y, theta]"))
+            pose = pose_of(state["pose"])
             task.index(pose)
-            state["pose"] = [pose.x, pose.y, pose.theta]
+            state["pose"] = listed(pose)
         _scenario.one_of("show", state["show"], SHOWN)
         tol = number("tol", state["tol"], 0, above=True)
         return {**state, "scenario": scenario, "tol": tol, "sweep": integer("sweep", state["sweep"], 0)}

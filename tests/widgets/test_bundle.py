@@ -142,12 +142,15 @@ def test_an_entry_must_have_a_start(program):
         module("explorables/none")
 
 
-def test_the_style_is_that_of_the_views_of_the_folder_and_of_the_entry(program):
+def test_the_style_is_that_of_the_views_of_the_folder_and_of_the_modules(program):
+    program("part/entry.js", 'import { part } from "./beside.js";\nexport function start() { part(); }\n')
+    program("part/beside.js", "export function part() {}\n")
     program("views/views.css", '/* all */\n.a::after {\n  content: "/* kept */";\n}\n')
     program("part/part.css", ".b {}\n")
-    program("part/entry.css", ".c {}\n")
-    program("part/other.css", ".d {}\n")
-    assert stylesheet("part/entry") == '.a::after {\ncontent: "/* kept */";\n}\n.b {}\n.c {}\n'
+    program("part/beside.css", ".c {}\n")
+    program("part/entry.css", ".d {}\n")
+    program("part/other.css", ".e {}\n")
+    assert stylesheet("part/entry") == '.a::after {\ncontent: "/* kept */";\n}\n.b {}\n.c {}\n.d {}\n'
 
 
 WITH_A_PART = {

@@ -274,9 +274,7 @@ def test_the_largest_map_is_planned_in_slices(page_of):
     world = rl.maps.random(30, density=0.2, rng=1)
     here = page_of(ValueWave(rl.Task(world, rl.Robot(slip=0.3), gamma=0.99), tol=1e-6, sweep=5))
     slider = here.page.get_by_role("slider", name="Sweep")
-    here.page.wait_for_function(
-        "n => Number(document.querySelector('.rl-wave-run input').max) === n", arg=sweeps(world)
-    )
+    here.page.wait_for_function("n => Number(document.querySelector('.rl-run input').max) === n", arg=sweeps(world))
     slider.focus()
     slider.press("End")
     assert "so the sweeps stop" in words(here)

@@ -5,16 +5,17 @@ import { Generator } from "../rng.js";
 import { Pose } from "../robot.js";
 import { History, PERCEPTIONS } from "../scenario/history.js";
 import { posesOf } from "../scenario/trial.js";
-import { button, segmented, slider, toolbar } from "../views/controls.js";
+import { button, segmented, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { Player } from "../views/player.js";
 import { drive as told, named, verdict } from "./aliasing_words.js";
 import { ForecastBars } from "./forecast_bars.js";
-import { frame } from "./frame.js";
+import { pair } from "./figure.js";
+import { keysOf } from "./map_cursor.js";
 import { turnText } from "./naming.js";
-import { rememberedProblem } from "./problem.js";
+import { TaskFigure } from "./task_figure.js";
 
 const NAMES = { cell: "cell", heading: "heading", pose: "cell and heading" };
 const MOST_DRIVES = 5000;
@@ -22,72 +23,63 @@ const LEGS_A_SECOND = 1.6;
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new Aliasing(stage);
-  return () => figure.destroy();
+  new Aliasing(stage).open();
 }
 
-class Aliasing {
+class Aliasing extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
+    super(stage, "Is what the robot perceives enough?");
     this.looks = new Map(); // what was found for a model and a way to perceive
     this.way = null; // the poses of the last drive, and the leg on which the robot is
     this.leg = 2;
-    this.player = new Player({ tick: () => this.nextLeg(), draw: (at) => this.drawMap(at), speed: LEGS_A_SECOND });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-    stage.onData("tables", () => this.adopt(stage.state));
-  }
-
-  destroy() {
-    this.player.destroy();
-    this.map.destroy();
+    this.player = this.part(
+      new Player({ tick: () => this.nextLeg(), draw: (at) => this.drawMap(at), speed: LEGS_A_SECOND }),
+    );
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const { stage } = this;
-    this.frame = frame(stage, { question: "Is what the robot perceives enough?", onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(this.buildLook(), h("div", { class: "rl-pair rl-alias-pair" }, left, right));
-    this.map = new GridView(left, {
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair("rl-alias-pair");
+    body.append(this.buildLook(), element);
+    const keys = keysOf({
+      enter: ({ x, y }) => this.put(x, y, this.stage.state.pose[2]),
+      l: () => this.turnBy(45),
+      r: () => this.turnBy(-45),
+    });
+    this.map = this.part(new GridView(left, {
       label: "Map with the poses that look alike",
       onCell: (event) => this.press(event),
-      onKey: (event) => this.key(event),
-    });
+      onKey: (event) => keys(event, this.map),
+    }));
     this.legend = new Legend(left);
     left.append(this.buildRun());
-    right.append(this.frame.answer);
+    right.append(answer);
     this.bars = new ForecastBars(right, { onPick: (before) => this.set({ before }) });
     this.told = h("p", { class: "rl-help rl-told" });
     right.append(this.told);
-    this.frame.body.append(this.buildSettings());
+    body.append(this.buildSettings());
   }
 
   buildLook() {
     this.perceive = segmented({
       label: "The robot perceives its",
       options: PERCEPTIONS.map((one) => [one, NAMES[one]]),
-      onChange: (perceive) => this.ask({ perceive }),
+      onChange: (perceive) => this.change({ perceive }),
     });
     const turns = this.first.scenario.steering.toReversed(); // left turns on the left
     this.turn = segmented({
       label: "and turns by",
       options: turns.map((a) => [String(a), turnText(a)]),
-      onChange: (turn) => this.ask({ turn: Number(turn) }),
+      onChange: (turn) => this.change({ turn: Number(turn) }),
     });
     return h("div", { class: "rl-alias-look" }, this.perceive.element, this.turn.element);
   }
 
   buildSettings() {
-    const onInput = (slip) => this.ask({ scenario: { ...this.stage.state.scenario, slip } });
-    this.slip = slider({ label: "Slip", min: 0, max: 0.5, step: 0.05, value: 0, onInput });
     const keys = "Keys on the map: arrows move, Enter puts it there, L and R turn it.";
     const help = h("p", { class: "rl-help", text: `Press a cell to put the robot there. ${keys}` });
-    return h("div", { class: "rl-row" }, this.slip.element, help);
+    return h("div", { class: "rl-row" }, this.buildSlip(0.5), help);
   }
 
   buildRun() {
@@ -98,13 +90,6 @@ class Aliasing {
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    this.prepare(state);
-    this.showAll();
-  }
-
-  /** Show the present state, controls included. */
   showAll() {
     const { perceive, turn, scenario } = this.stage.state;
     this.perceive.value = perceive;
@@ -117,7 +102,7 @@ class Aliasing {
 
   /** Find the forecasts of a state, and drive as often as it says. */
   prepare({ scenario, perceive, pose, turn, drives }) {
-    const { task, mdp } = this.problemOf(scenario, this.stage.data("tables"));
+    const { task, mdp } = this.problemOf(scenario);
     const s = task.index(new Pose(...pose));
     if (this.mdp !== mdp) this.looks.clear();
     if (!this.looks.has(perceive)) {
@@ -142,18 +127,8 @@ class Aliasing {
   }
 
   /** Ask another question: what was tried for the old one is no answer to it. */
-  ask(patch) {
-    const state = { ...this.stage.state, ...patch, drives: 0, before: null };
-    if (!this.stage.attempt(() => this.prepare(state))) return;
-    this.stage.message("");
-    this.stage.update(state);
-    this.showAll();
-  }
-
-  /** Change what is shown. */
-  set(patch) {
-    this.stage.update(patch);
-    this.draw();
+  change(patch) {
+    return super.change({ ...patch, drives: 0, before: null });
   }
 
   drive(times) {
@@ -174,12 +149,6 @@ class Aliasing {
     return this.leg < 2;
   }
 
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
-  }
-
   // ---------------------------------------------------------------- the map
   press({ type, x, y, theta, button: pressed }) {
     if (type !== "down" || pressed > 0) return;
@@ -191,17 +160,12 @@ class Aliasing {
     if (this.task.world.blocked(x, y)) return this.stage.message("An obstacle stands there.", "note");
     if (this.task.world.isGoal(x, y)) return this.stage.message("The goal: the episode is over there.", "note");
     this.stage.message("");
-    return this.ask({ pose: [x, y, theta] });
+    return this.change({ pose: [x, y, theta] });
   }
 
-  key({ key, ctrlKey, metaKey, altKey }) {
-    if (ctrlKey || metaKey || altKey) return false;
+  turnBy(angle) {
     const [x, y, theta] = this.stage.state.pose;
-    const turns = { l: 45, r: -45 };
-    if (key === "Enter" || key === " ") this.put(...this.map.cursor, theta);
-    else if (key.toLowerCase() in turns) this.put(x, y, (theta + turns[key.toLowerCase()] + 360) % 360);
-    else return false;
-    return true;
+    this.put(x, y, (theta + angle + 360) % 360);
   }
 
   // ---------------------------------------------------------------- drawing

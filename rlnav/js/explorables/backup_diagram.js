@@ -10,36 +10,22 @@ import { h } from "../views/dom.js";
 import { formula, math, sentenceOf, symbolOf } from "./backup_formula.js";
 import { BackupMap } from "./backup_map.js";
 import { FillNumber } from "./fill_number.js";
-import { frame } from "./frame.js";
 import { poseInWords, turnInWords, turnText, written } from "./naming.js";
-import { problemOf } from "./problem.js";
+import { TaskFigure } from "./task_figure.js";
 
 const KINDS = { v_pi: "v_{π}(s)", q_pi: "q_{π}(s, a)", v_star: "v_{*}(s)", q_star: "q_{*}(s, a)" };
 
 /** Build the live backup diagram on its stage. */
 export function start(stage) {
-  const live = new BackupDiagram(stage);
-  return () => live.destroy();
+  new BackupDiagram(stage).open();
 }
 
-class BackupDiagram {
+class BackupDiagram extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "Where does the value of this pose come from?");
     this.trail = []; // poses from which the reader has walked on
     this.picked = "0";
     this.hidden = null;
-    const question = "Where does the value of this pose come from?";
-    this.frame = frame(stage, { question, onReset: () => this.reset() });
-    this.build();
-    this.take(stage.state);
-    stage.onState((state) => this.take(state));
-    stage.onData("tables", () => this.take(stage.state));
-  }
-
-  destroy() {
-    this.map.destroy();
-    this.diagram.destroy();
   }
 
   // ---------------------------------------------------------------- building
@@ -48,12 +34,13 @@ class BackupDiagram {
     const [place, settings, tree, tell] = ["map", "settings", "tree", "tell"].map(part);
     this.frame.body.append(h("div", { class: "rl-backup" }, place, settings, tree, tell));
     const onPose = (pose, first) => this.moveTo(pose, first);
-    this.map = new BackupMap(place, { onPose, onTurn: (by) => this.turn(by) });
+    this.map = this.part(new BackupMap(place, { onPose, onTurn: (by) => this.turn(by) }));
     place.append(this.buildTurns());
-    settings.append(...this.buildKind(), this.buildPolicy(), this.buildModel());
-    this.diagram = new DiagramView(tree, {
+    const model = h("div", { class: "rl-row" }, this.buildGamma(1), this.buildSlip(1));
+    settings.append(...this.buildKind(), this.buildPolicy(), model);
+    this.diagram = this.part(new DiagramView(tree, {
       label: "Backup diagram", onPick: (node) => this.pick(node.id), onOpen: (node) => this.walkTo(node),
-    });
+    }));
     const hint = "Point at a circle or a dot, or tap it: its number is explained. Choose it again to go there.";
     tree.append(h("p", { class: "rl-help", text: hint }));
     this.formula = h("div", { class: "rl-formulas" });
@@ -73,10 +60,10 @@ class BackupDiagram {
 
   buildKind() {
     const options = Object.keys(KINDS).map((kind) => [kind, ""]);
-    this.kind = segmented({ label: "Diagram of", options, onChange: (diagram) => this.set({ diagram }) });
+    this.kind = segmented({ label: "Diagram of", options, onChange: (diagram) => this.change({ diagram }) });
     const texts = this.kind.element.querySelectorAll("label > span");
     Object.values(KINDS).forEach((name, i) => texts[i].replaceChildren(h("bdi", {}, ...math(name))));
-    const onChange = (a) => this.set({ action: Number(a) });
+    const onChange = (a) => this.change({ action: Number(a) });
     this.action = segmented({ label: "Action a", options: this.actionOptions(), onChange });
     return [this.kind.element, this.action.element];
   }
@@ -89,54 +76,37 @@ class BackupDiagram {
   buildPolicy() {
     const options = [["random", "Chance"], ["epsilon_greedy", "ε-greedy"]];
     if (this.stage.data("tables")?.policy) options.push(["own", "The given one"]);
-    this.policy = segmented({ label: "Policy π", options, onChange: (policy) => this.set({ policy }) });
+    this.policy = segmented({ label: "Policy π", options, onChange: (policy) => this.change({ policy }) });
     this.epsilon = slider({
-      label: "ε", min: 0, max: 1, step: 0.05, value: 0, onInput: (epsilon) => this.set({ epsilon }),
+      label: "ε", min: 0, max: 1, step: 0.05, value: 0, onInput: (epsilon) => this.change({ epsilon }),
     });
     this.policies = h("div", { class: "rl-row" }, this.policy.element, this.epsilon.element);
     return this.policies;
   }
 
-  buildModel() {
-    const change = (name) => (value) => this.set({ scenario: { ...this.stage.state.scenario, [name]: value } });
-    this.gamma = slider({ label: "Discount γ", min: 0, max: 1, step: 0.01, value: 0, onInput: change("gamma") });
-    this.slip = slider({ label: "Slip", min: 0, max: 1, step: 0.05, value: 0, onInput: change("slip") });
-    return h("div", { class: "rl-row" }, this.gamma.element, this.slip.element);
-  }
-
   // ---------------------------------------------------------------- the state
-  /** Change the state; what cannot be computed becomes a message, and the last good state stays. */
-  set(patch) {
-    const next = { ...this.stage.state, ...patch };
-    const worked = this.stage.attempt(() => this.compute(next));
-    if (worked) {
-      this.stage.message("");
-      this.stage.update(patch);
-      this.fill.stop();
-    }
-    this.refresh();
-  }
-
-  /** Take over a whole state. */
-  take(state) {
-    this.compute(state);
+  adopt(state) {
+    this.prepare(state);
     this.trail = [];
-    this.fill.stop();
-    this.refresh();
+    this.showAll();
   }
 
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.take(this.first);
+  showAll() {
+    this.fill.stop();
+    this.draw();
+  }
+
+  /** Change the state; a control that asked for what cannot be goes back. */
+  change(patch) {
+    if (!super.change(patch)) this.draw();
   }
 
   /** Find the exact values and the tree of a state; only then is anything taken over. */
-  compute(state) {
+  prepare(state) {
     const key = JSON.stringify([state.scenario, state.policy, state.epsilon, state.diagram.endsWith("star")]);
     const tables = this.stage.data("tables");
     if (key !== this.key || tables !== this.tables) {
-      const { task, mdp, policy } = problemOf(state.scenario, tables);
+      const { task, mdp, policy } = this.problemOf(state.scenario);
       const pi = state.diagram.endsWith("star") ? null : policyOf(mdp, state, policy);
       Object.assign(this, { task, mdp, pi, ...valuesOf(mdp, pi), key, tables });
       this.map.show(task, this.V, this.max ? "v*" : "vπ");
@@ -154,7 +124,7 @@ class BackupDiagram {
     const { world } = this.task;
     if (world.blocked(x, y) || (x === this.pose.x && y === this.pose.y && theta === this.pose.theta)) return;
     if (remember) this.trail.push(this.pose);
-    this.set({ pose: [x, y, theta] });
+    this.change({ pose: [x, y, theta] });
   }
 
   turn(by) {
@@ -173,7 +143,7 @@ class BackupDiagram {
   goBack() {
     const pose = this.trail.pop();
     if (pose) this.moveTo(pose, false);
-    this.refresh();
+    this.draw();
   }
 
   pick(id) {
@@ -184,7 +154,7 @@ class BackupDiagram {
   /** Hide the number of a node for the exercise, or show all again. */
   hide(id) {
     this.hidden = id;
-    if (this.root) this.refresh();
+    if (this.root) this.draw();
   }
 
   nodeOf(id) {
@@ -192,7 +162,7 @@ class BackupDiagram {
   }
 
   // ---------------------------------------------------------------- what is seen
-  refresh() {
+  draw() {
     const { state } = this.stage;
     this.kind.value = state.diagram;
     this.action.value = String(state.action);

@@ -4,18 +4,22 @@
 import { scaleOf } from "../scenario/wave.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
+import { keysOf } from "./map_cursor.js";
 import { poseInWords } from "./naming.js";
-
-const KEYS = { l: 45, r: -45 };
 
 export class BackupMap {
   /** `onPose({ x, y, theta }, first)` hears the poses of a press, `onTurn(by)` a turn by so many degrees. */
   constructor(parent, { onPose, onTurn }) {
-    Object.assign(this, { onPose, onTurn });
+    this.onPose = onPose;
+    const keys = keysOf({
+      enter: ({ x, y }) => onPose({ x, y, theta: this.pose.theta }, true),
+      l: () => onTurn(45),
+      r: () => onTurn(-45),
+    });
     this.grid = new GridView(parent, {
       label: "Map with the value of every pose. Arrow keys move, Enter picks the cell, L and R turn.",
       onCell: (event) => this.press(event),
-      onKey: (event) => this.key(event),
+      onKey: (event) => keys(event, this.grid),
     });
     this.legend = new Legend(parent);
   }
@@ -37,16 +41,6 @@ export class BackupMap {
     if ((type !== "down" && type !== "move") || button > 0) return;
     this.grid.cursor = [x, y];
     this.onPose({ x, y, theta }, type === "down");
-  }
-
-  key(event) {
-    const key = event.key.toLowerCase();
-    if (event.ctrlKey || event.metaKey || event.altKey) return false;
-    const [x, y] = this.grid.cursor;
-    if (key === "enter" || key === " ") this.onPose({ x, y, theta: this.pose.theta }, true);
-    else if (key in KEYS) this.onTurn(KEYS[key]);
-    else return false;
-    return true;
   }
 
   /** Draw the root's pose, and light up the place of a node: the way to it and all that may follow. */

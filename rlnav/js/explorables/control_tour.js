@@ -6,80 +6,69 @@ import { checkTour, drive, KINDS, MOST_STEPS, roundTask } from "../scenario/roun
 import { button, choice, slider, toggle, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
-import { Player } from "../views/player.js";
 import { ControlList } from "./control_list.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
+import { keysOf } from "./map_cursor.js";
 import { poseInWords, turnInWords } from "./naming.js";
+import { PlayButton } from "./playback.js";
 
 const PACE = 3; // steps a second
 const EVERYTHING = "You have tried everything: you can work every figure of this book.";
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const tour = new ControlTour(stage);
-  return () => tour.destroy();
+  new ControlTour(stage).open();
 }
 
-class ControlTour {
+class ControlTour extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "Which turn, again and again, leads to the star?");
     this.task = roundTask();
     this.now = ""; // the kind of control that was used last
-    this.frame = frame(stage, {
-      question: "Which turn, again and again, leads to the star?",
-      onReset: () => this.reset(),
-    });
-    this.player = new Player({
-      tick: () => this.go(this.steps + 1),
-      draw: (at) => this.drawMap(at),
-      speed: PACE,
-      onStop: () => this.draw(),
-    });
-    this.build();
-    this.watchLecture();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    this.player.destroy();
-    this.map.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(this.frame.answer, h("div", { class: "rl-pair rl-tour" }, left, right));
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair("rl-tour");
+    body.append(answer, element);
     left.append(this.buildLook());
-    this.map = new GridView(left, {
+    const keys = keysOf({ enter: (cell) => this.put(cell), r: (cell, back) => this.turnBy(back ? 315 : 45) });
+    this.map = this.part(new GridView(left, {
       label: "Map with the robot",
       onCell: (event) => event.type === "down" && event.button === 0 && this.put(event),
       onHover: () => this.drawMap(1),
-      onKey: (event) => this.key(event),
-    });
+      onKey: (event) => keys(event, this.map),
+    }));
     left.append(this.buildRun());
     this.list = new ControlList(right, () => this.set({ tried: [] }));
+    this.watchLecture();
   }
 
   buildLook() {
     const turns = this.task.robot.steering.toReversed().map((a) => [String(a), turnInWords(a)]);
     const label = "In every step";
-    this.turn = choice({ label, options: turns, onChange: (turn) => this.change("menu", { turn: Number(turn) }) });
-    this.trail = toggle({ label: "Leave a trail", onChange: (trail) => this.change("box", { trail }) });
+    this.turn = choice({ label, options: turns, onChange: (turn) => this.use("menu", { turn: Number(turn) }) });
+    this.trail = toggle({ label: "Leave a trail", onChange: (trail) => this.use("box", { trail }) });
     return h("div", { class: "rl-look" }, this.turn.element, this.trail.element);
   }
 
   buildRun() {
     this.back = button({ label: "Back", icon: "back", onClick: () => this.step("back", -1) });
-    this.play = button({ label: "Play", icon: "play", onClick: () => this.playOrPause() });
+    this.player = new PlayButton(this.stage, {
+      tick: () => this.go(this.steps + 1),
+      draw: (at) => this.drawMap(at),
+      speed: PACE,
+      before: () => this.steps === this.poses.length - 1 && this.go(0),
+      onChange: () => this.draw(),
+    });
+    this.player.element.addEventListener("click", () => this.tick("play"));
     this.next = button({ label: "One step", icon: "step", primary: true, onClick: () => this.step("step", 1) });
     this.frame.focusFirst(this.next.element);
-    const tools = toolbar({ label: "Run", children: [this.back, this.play, this.next] });
+    const tools = toolbar({ label: "Run", children: [this.back, this.player, this.next] });
     this.scrubber = slider({
       label: "Steps", min: 0, max: MOST_STEPS, step: 1, value: 0,
-      onInput: (steps) => this.change(this.typed ? "number" : "slider", { steps }),
+      onInput: (steps) => this.use(this.typed ? "number" : "slider", { steps }),
     });
     // the same callback hears of both: who types, or presses an arrow key in the number, is in its field
     const field = this.scrubber.element.querySelector(".rl-number");
@@ -87,7 +76,7 @@ class ControlTour {
       field.addEventListener(name, () => (this.typed = true), true);
       field.addEventListener(name, () => (this.typed = false));
     }
-    return h("div", { class: "rl-wave-run" }, tools.element, this.scrubber.element);
+    return h("div", { class: "rl-run rl-scrubbed" }, tools.element, this.scrubber.element);
   }
 
   /** Notice the lecture view, which the frame opens. */
@@ -101,11 +90,9 @@ class ControlTour {
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
+  prepare(state) {
     checkTour(state, this.task);
     this.drive();
-    this.draw();
   }
 
   /** Drive anew, to the end; the steps that are shown cannot be more than there are. */
@@ -126,13 +113,13 @@ class ControlTour {
   }
 
   /** Change something by a kind of control, which is ticked off. */
-  change(kind, patch) {
+  use(kind, patch) {
     this.now = kind;
     this.set({ ...patch, tried: this.with(kind) });
   }
 
   tick(kind) {
-    this.change(kind, {});
+    this.use(kind, {});
   }
 
   with(kind) {
@@ -152,16 +139,6 @@ class ControlTour {
     this.go(this.steps + direction);
   }
 
-  playOrPause() {
-    this.tick("play");
-    if (this.player.playing) this.player.pause();
-    else {
-      if (this.steps === this.poses.length - 1) this.go(0);
-      this.player.play();
-    }
-    this.draw();
-  }
-
   /** Put the robot on a cell; on the same cell once more, it turns. */
   put({ x, y }) {
     const { world } = this.task;
@@ -173,18 +150,15 @@ class ControlTour {
     this.stage.message("");
     this.player.pause();
     const same = x === x0 && y === y0;
-    this.change("map", { pose: [x, y, same ? (theta + 45) % 360 : theta], steps: 0 });
+    this.use("map", { pose: [x, y, same ? (theta + 45) % 360 : theta], steps: 0 });
   }
 
-  key({ key, shiftKey }) {
-    const [x, y] = this.map.cursor;
-    if (key === "Enter" || key === " ") this.put({ x, y });
-    else if (key.toLowerCase() === "r") {
-      const [x0, y0, theta] = this.stage.state.pose;
-      this.change("map", { pose: [x0, y0, (theta + (shiftKey ? 315 : 45)) % 360], steps: 0 });
-      this.map.cursor = [x, y];
-    } else return false;
-    return true;
+  /** Turn the robot where it begins; the keyboard's cursor stays. */
+  turnBy(angle) {
+    const { cursor } = this.map;
+    const [x, y, theta] = this.stage.state.pose;
+    this.use("map", { pose: [x, y, (theta + angle) % 360], steps: 0 });
+    this.map.cursor = cursor;
   }
 
   /** Back to the settings of the page. The ticks stay: else nobody could tick off this button. */
@@ -192,7 +166,7 @@ class ControlTour {
     this.player.pause();
     this.stage.message("");
     const { pose, turn, steps, trail } = this.first;
-    this.change("again", { pose, turn, steps, trail });
+    this.use("again", { pose, turn, steps, trail });
   }
 
   // ---------------------------------------------------------------- drawing
@@ -205,8 +179,7 @@ class ControlTour {
     this.scrubber.value = this.steps;
     this.back.disabled(this.steps === 0 ? "This is the beginning." : "");
     this.next.disabled(last ? "The drive is over." : "");
-    this.play.label = this.player.playing ? "Pause" : "Play";
-    this.play.icon = this.player.playing ? "pause" : "play";
+    this.player.refresh();
     this.list.draw(state.tried, this.now);
     if (!this.player.playing) this.drawMap(1);
     this.frame.say(this.sentence());

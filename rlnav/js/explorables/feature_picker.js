@@ -14,7 +14,7 @@ import { button, segmented, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
 import { remember, TriesTable } from "./picker_table.js";
 import { afterTraining, beforeTraining, driveInWords, grouped, pairInWords } from "./picker_words.js";
 
@@ -23,31 +23,21 @@ const NEXT = { pairs: "Next pair", drive: "Another start", unseen: "Another unse
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const picker = new FeaturePicker(stage);
-  return () => picker.destroy();
+  new FeaturePicker(stage).open();
 }
 
-class FeaturePicker {
+class FeaturePicker extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "What must the robot perceive?");
     this.chosen = CARRIED; // taken up again when the reader comes back from the whole pose
     this.school = null;
-    this.player = new Player({
+    this.player = this.part(new Player({
       tick: (ms) => this.school.slice(ms),
       draw: () => this.drawProgress(),
       speed: Infinity,
       onStop: (error) => (error ? stage.message(error.message) : this.graduate()),
-    });
+    }));
     this.fields = new Fields(this);
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    this.player.destroy();
-    this.map.destroy();
   }
 
   // ---------------------------------------------------------------- what the simulator's parts ask for
@@ -61,23 +51,23 @@ class FeaturePicker {
 
   /** Change the scenario by a function of it; return whether that was possible. */
   edit(fn) {
-    return this.stage.attempt(() => {
-      const scenario = checkScenario(fn(this.scenario));
-      const variety = scenario.features ? this.stage.state.variety : "one";
-      this.change({ scenario, variety, trained: false, view: "pairs", turn: 0 });
-    });
+    let scenario = null;
+    if (!this.stage.attempt(() => (scenario = checkScenario(fn(this.scenario))))) return false;
+    return this.begin({ scenario, variety: scenario.features ? this.stage.state.variety : "one" });
+  }
+
+  /** Begin with an empty table. */
+  begin(patch) {
+    return this.change({ ...patch, trained: false, view: "pairs", turn: 0 });
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const onReset = () => this.reset();
-    this.frame = frame(this.stage, { question: "What must the robot perceive?", onReset });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right), this.buildRun());
+    const { element, left, right } = pair();
+    this.frame.body.append(element, this.buildRun());
     left.append(...this.buildFeatures());
     right.append(this.frame.answer, this.buildView());
-    this.map = new GridView(right, { label: "Map", cursor: false });
+    this.map = this.part(new GridView(right, { label: "Map", cursor: false }));
     this.what = h("p", { class: "rl-help rl-what", role: "status" });
     right.append(this.what);
     this.tries = new TriesTable(this.frame.body);
@@ -98,8 +88,8 @@ class FeaturePicker {
 
   buildView() {
     const options = [["pairs", "Pairs"], ["drive", "Drive"], ["unseen", "Unseen map"]];
-    this.view = segmented({ label: "The map shows", hideLabel: true, options, onChange: (view) => this.look(view) });
-    this.next = button({ label: NEXT.pairs, icon: "step", onClick: () => this.goOn() });
+    this.view = segmented({ label: "The map shows", hideLabel: true, options, onChange: (view) => this.set({ view, turn: 0 }) });
+    this.next = button({ label: NEXT.pairs, icon: "step", onClick: () => this.set({ turn: this.stage.state.turn + 1 }) });
     return h("div", { class: "rl-look" }, this.view.element, this.next.element);
   }
 
@@ -107,18 +97,17 @@ class FeaturePicker {
     this.variety = segmented({
       label: "It learns on",
       options: [["one", "This map"], ["many", `${MAPS} random maps`]],
-      onChange: (variety) => this.change({ variety, trained: false, view: "pairs", turn: 0 }),
+      onChange: (variety) => this.begin({ variety }),
     });
     this.train = button({ label: "Train", icon: "train", primary: true, onClick: () => this.learn() });
     this.frame.focusFirst(this.train.element);
     this.progress = h("span", { class: "rl-help rl-progress" });
     const tools = toolbar({ label: "Learning", children: [this.train] });
-    return h("div", { class: "rl-picker-run" }, tools.element, this.variety.element, this.progress);
+    return h("div", { class: "rl-run rl-picker-run" }, tools.element, this.variety.element, this.progress);
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
+  prepare(state) {
     const scenario = checkScenario({ ...state.scenario, starts: null });
     const { map, steering, slip, gamma, reward } = scenario;
     const key = JSON.stringify([map, steering, slip, gamma, reward]);
@@ -128,9 +117,6 @@ class FeaturePicker {
     this.features = featuresOf(scenario.features);
     this.school = new School(scenario, this.features, this.grounds, state.variety);
     this.judge(scenario);
-    this.showSettings(state);
-    if (state.trained) this.player.play();
-    this.draw();
   }
 
   /** See what the table mixes up at home. */
@@ -140,7 +126,8 @@ class FeaturePicker {
     this.table = { rows: tableSizeOf(scenario).rows - 1, ...found };
   }
 
-  showSettings({ scenario, variety }) {
+  showAll() {
+    const { scenario, variety, trained } = this.stage.state;
     this.fields.refresh();
     this.kind.value = scenario.features ? "features" : "pose";
     this.list.hidden = scenario.features === null;
@@ -148,19 +135,8 @@ class FeaturePicker {
     this.size.refresh();
     this.variety.value = variety;
     this.variety.disabled(scenario.features ? "" : "The poses of one map are not those of another.");
-  }
-
-  change(patch) {
-    this.stage.message("");
-    const state = { ...this.stage.state, ...patch };
-    this.stage.update(patch); // the parts that are shared read the state
-    this.adopt(state);
-  }
-
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
+    if (trained) this.player.play();
+    this.draw();
   }
 
   /** Begin to learn, with another seed if it has learned already; or stop before it is done. */
@@ -177,19 +153,7 @@ class FeaturePicker {
     const { home, away } = this.school;
     const scores = { home: home.success, away: away?.success ?? null };
     const one = { features: scenario.features, variety, seed: scenario.seed, met, mixed, ...scores };
-    this.stage.update({ tried: remember(tried, one) });
-    this.draw();
-  }
-
-  look(view) {
-    this.stage.update({ view, turn: 0 });
-    this.draw();
-  }
-
-  goOn() {
-    const { turn } = this.stage.state;
-    this.stage.update({ turn: turn + 1 });
-    this.draw();
+    this.set({ tried: remember(tried, one) });
   }
 
   // ---------------------------------------------------------------- drawing

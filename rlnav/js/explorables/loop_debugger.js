@@ -5,14 +5,13 @@ import { solve } from "../planning.js";
 import { Loop, MOMENTS } from "../scenario/loop.js";
 import { button, group, segmented, slider, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
-import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
 import { LabelLog } from "./label_log.js";
 import { LogView, ProgramView, TimeLine } from "./loop_log.js";
 import { LoopPicture } from "./loop_picture.js";
 import { chancesAt, sceneOf } from "./loop_scene.js";
 import { nextWords, sentence } from "./loop_words.js";
-import { problemOf } from "./problem.js";
+import { PlayButton } from "./playback.js";
+import { TaskFigure } from "./task_figure.js";
 
 const PACE = 1.25; // moments in a second while it plays: time to read
 const LONGEST = 40; // steps, of the slider for the limit
@@ -22,44 +21,31 @@ const FRESH = { read: ["s"], choose: ["a"], move: [], pay: ["r"], show: ["sNext"
 
 /** Build the step debugger on its stage. */
 export function start(stage) {
-  const debug = new LoopDebugger(stage);
-  return () => debug.destroy();
+  new LoopDebugger(stage).open();
 }
 
-class LoopDebugger {
+class LoopDebugger extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "start again" comes back to
-    this.frame = frame(stage, { question: "Who does what in one step?", onReset: () => this.reset() });
-    this.player = new Player({ tick: () => this.tick(), draw: () => {}, speed: PACE, onStop: () => this.refreshBar() });
-    this.model(stage.state);
-    this.build();
-    this.begin(stage.state);
-    stage.onState((state) => this.begin(state));
+    super(stage, "Who does what in one step?");
     stage.root.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  destroy() {
-    this.player.destroy();
-    this.picture.destroy();
   }
 
   /** Build the model of a state, unless it is the present one. */
   model({ scenario }) {
-    const key = JSON.stringify([scenario.slip, scenario.gamma]); // all that may change
-    if (key === this.built) return;
-    const { task, mdp, policy } = problemOf(scenario, this.stage.data("tables"));
+    const { task, mdp, policy } = this.problemOf(scenario);
+    if (mdp === this.mdp) return;
     const random = new Float64Array(mdp.S * mdp.A).fill(1 / mdp.A);
     const { pi, V } = solve(mdp);
-    Object.assign(this, { task, mdp, built: key, V, policies: { random, optimal: pi, own: policy } });
+    Object.assign(this, { task, mdp, V, policies: { random, optimal: pi, own: policy } });
     if (this.picture) this.picture.task = task;
   }
 
   build() {
+    this.model(this.first);
     const { body, answer } = this.frame;
     body.append(this.settings(), answer);
     const reduced = () => this.stage.reducedMotion;
-    this.picture = new LoopPicture(body, this.task, { onChoose: (a) => this.forward(a), reduced });
+    this.picture = this.part(new LoopPicture(body, this.task, { onChoose: (a) => this.forward(a), reduced }));
     body.append(this.bar());
     this.line = new TimeLine(body, { onPick: (position) => this.goBackTo(position) });
     const below = h("div", { class: "rl-loop-below" });
@@ -73,7 +59,7 @@ class LoopDebugger {
     const choosers = [["random", "Chance"], ["optimal", "The best policy"], ["you", "You"]];
     if (this.policies.own) choosers.splice(2, 0, ["own", "The given policy"]);
     this.chooser = segmented({
-      label: "Who chooses the actions?", options: choosers, onChange: (chooser) => this.setChooser(chooser),
+      label: "Who chooses the actions?", options: choosers, onChange: (chooser) => this.set({ chooser }),
     });
     this.limit = slider({
       label: "Step limit", min: 1, max: Math.max(LONGEST, this.first.scenario.max_steps), step: 1, value: 1,
@@ -86,10 +72,12 @@ class LoopDebugger {
     this.back = button({ label: "Back", icon: "back", onClick: () => this.goBack() });
     this.next = button({ label: "Next", icon: "step", primary: true, onClick: () => this.forward() });
     this.whole = button({ label: "Whole step", icon: "episode", onClick: () => this.wholeStep() });
-    this.play = button({ label: "Play", icon: "play", onClick: () => this.togglePlay() });
+    this.player = new PlayButton(this.stage, {
+      tick: () => this.tick(), speed: PACE, onChange: () => this.refreshBar(),
+    });
     this.anew = button({ label: "New episode", icon: "reset", onClick: () => this.newEpisode() });
     this.next.element.classList.add("rl-next");
-    const children = [this.back, this.next, this.whole, this.play, this.anew];
+    const children = [this.back, this.next, this.whole, this.player, this.anew];
     const bar = toolbar({ label: "Run", children });
     bar.element.classList.add("rl-loop-bar");
     return bar.element;
@@ -110,21 +98,17 @@ class LoopDebugger {
   }
 
   // ---------------------------------------------------------------- the run
-  /** Take over a whole state: from Python, or the one at the beginning. */
-  begin(state) {
+  prepare(state) {
     const { scenario, actions, position } = state;
     this.model(state);
     this.loop = new Loop(this.mdp, { seed: scenario.seed, maxSteps: scenario.max_steps, actions, position });
-    this.chooser.value = state.chooser;
-    this.limit.value = scenario.max_steps;
-    this.refresh(false);
   }
 
-  reset() {
-    this.player.pause();
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.begin(this.first);
+  showAll() {
+    const { chooser, scenario } = this.stage.state;
+    this.chooser.value = chooser;
+    this.limit.value = scenario.max_steps;
+    this.draw();
   }
 
   /** Whether the reader is the one who chooses, and it is time to. */
@@ -172,12 +156,6 @@ class LoopDebugger {
     this.told(false);
   }
 
-  togglePlay() {
-    if (this.player.playing) this.player.pause();
-    else if (!this.loop.over) this.player.play();
-    this.refreshBar();
-  }
-
   tick() {
     if (!this.asks) this.forward();
     return !this.loop.over;
@@ -185,28 +163,18 @@ class LoopDebugger {
 
   newEpisode() {
     const { scenario } = this.stage.state;
-    this.stage.update({ scenario: { ...scenario, seed: scenario.seed + 1 }, actions: [], position: 0 });
-    this.begin(this.stage.state);
+    this.change({ scenario: { ...scenario, seed: scenario.seed + 1 }, actions: [], position: 0 });
     this.next.element.focus({ preventScroll: true });
   }
 
-  setChooser(chooser) {
-    this.stage.update({ chooser });
-    this.refresh(false);
-  }
-
   setLimit(max_steps) {
-    const { scenario } = this.stage.state;
-    const { actions, position } = this.loop;
-    this.stage.update({ scenario: { ...scenario, max_steps } });
-    this.begin({ ...this.stage.state, actions, position });
-    this.told(false);
+    if (this.changeTask({ max_steps })) this.told(false);
   }
 
   /** Keep where the run is, and show it. */
   told(moving) {
     this.stage.update({ actions: this.loop.actions, position: this.loop.position });
-    this.refresh(moving);
+    this.draw(moving);
   }
 
   key(event) {
@@ -217,7 +185,7 @@ class LoopDebugger {
   }
 
   // ---------------------------------------------------------------- what is seen
-  refresh(moving) {
+  draw(moving = false) {
     const { loop, task } = this;
     const rows = loop.rows;
     this.picture.draw(sceneOf(loop, task, { moving, ...this.choosing() }));
@@ -241,12 +209,10 @@ class LoopDebugger {
   }
 
   refreshBar() {
-    const { loop, player } = this;
+    const { loop } = this;
     this.next.label = this.asks ? "Your turn: choose an action" : `Next: ${nextWords(loop)}`;
     this.whole.disabled(loop.over ? "The episode is over." : this.asks ? "It is your turn to choose." : "");
-    this.play.disabled(loop.over ? "The episode is over." : "");
     this.back.disabled(loop.position === 0 ? "This is the beginning." : "");
-    this.play.label = player.playing ? "Pause" : "Play";
-    this.play.icon = player.playing ? "pause" : "play";
+    this.player.refresh("Play", loop.over ? "The episode is over." : "");
   }
 }

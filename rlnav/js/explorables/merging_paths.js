@@ -8,11 +8,11 @@ import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
-import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
 import { driveOf, errorCurves, SCALE, valuesOf } from "./merging_picture.js";
 import { RoadTable } from "./merging_table.js";
 import { roadNames, sentence } from "./merging_words.js";
+import { Walk } from "./playback.js";
 import { problemOf } from "./problem.js";
 
 const DRIVES_A_SECOND = 1.5;
@@ -21,57 +21,32 @@ const OTHER_LUCK = 100; // the next seed whose drives are all other ones
 
 /** Build the figure on its stage. */
 export function start(stage) {
-  const figure = new MergingPaths(stage);
-  return () => figure.destroy();
+  new MergingPaths(stage, "What does one road learn from the other?").open();
 }
 
-class MergingPaths {
-  constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.player = new Player({
-      tick: () => this.go(this.k + 1),
-      draw: () => {},
-      speed: DRIVES_A_SECOND,
-      onStop: (error) => {
-        if (error) stage.message(error.message);
-        this.drawButtons();
-      },
-    });
-    this.prepare(stage.state);
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    for (const part of [this.player, ...Object.values(this.maps), this.chart]) part.destroy();
-  }
-
+class MergingPaths extends Figure {
   get k() {
     return this.stage.state.shown;
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const { body, answer } = (this.frame = frame(this.stage, {
-      question: "What does one road learn from the other?",
-      onReset: () => this.reset(),
-    }));
+    this.prepare(this.first); // the roads have names
+    const { body, answer } = this.frame;
     const row = h("div", { class: "rl-merge-maps" });
     body.append(this.buildSettings(), row);
     this.maps = Object.fromEntries(MAPS.map(([name, title]) => {
       const place = h("div", { class: "rl-merge-map" }, h("p", { class: "rl-merge-title", text: title }));
       row.append(place);
-      return [name, new GridView(place, { label: title, axes: false, cursor: false, maxHeight: 330 })];
+      return [name, this.part(new GridView(place, { label: title, axes: false, cursor: false, maxHeight: 330 }))];
     }));
     this.legend = new Legend(body);
     body.append(this.buildRun(), answer, this.buildMore());
-    const [left, right] = [h("div", { class: "rl-column" }), h("div", { class: "rl-column" })];
-    body.append(h("div", { class: "rl-pair" }, left, right));
+    const { element, left, right } = pair();
+    body.append(element);
     this.table = new RoadTable(left);
     const axes = { xLabel: "drive", yLabel: "error over all poses (RMS)", height: 190 };
-    this.chart = new CurveView(right, { label: "Errors of both tables", ...axes });
+    this.chart = this.part(new CurveView(right, { label: "Errors of both tables", ...axes }));
   }
 
   buildSettings() {
@@ -88,11 +63,13 @@ class MergingPaths {
 
   /** What plays the drives. */
   buildRun() {
-    this.back = button({ label: "Back", icon: "back", title: "One drive back", onClick: () => this.step(-1) });
-    this.next = button({ label: "Next drive", icon: "step", primary: true, onClick: () => this.step(1) });
-    this.play = button({ label: "Play", icon: "play", onClick: () => this.playOrPause() });
-    this.frame.focusFirst(this.next.element);
-    const recorded = toolbar({ label: "Recorded drives", children: [this.back, this.next, this.play] });
+    this.walk = new Walk(this, {
+      back: { title: "One drive back" },
+      next: { label: "Next drive" },
+      speed: DRIVES_A_SECOND,
+    });
+    this.player = this.walk.player;
+    const recorded = toolbar({ label: "Recorded drives", children: [this.walk.back, this.walk.next, this.player] });
     return h("div", { class: "rl-merge-run" }, recorded.element);
   }
 
@@ -120,39 +97,22 @@ class MergingPaths {
     Object.assign(this, { key, task, merging, moments });
   }
 
-  adopt(state) {
-    this.prepare(state);
-    this.alpha.value = state.alpha;
-    this.batch.value = state.batch ? "batch" : "once";
-    this.alpha.disabled(state.batch ? "Where the tables come to rest does not depend on the step size." : "");
+  showAll() {
+    const { alpha, batch } = this.stage.state;
+    this.alpha.value = alpha;
+    this.batch.value = batch ? "batch" : "once";
+    this.alpha.disabled(batch ? "Where the tables come to rest does not depend on the step size." : "");
     this.draw();
-  }
-
-  change(patch) {
-    this.stage.message("");
-    this.stage.update(patch);
-    this.adopt(this.stage.state);
   }
 
   /** Show what is known after k drives; return whether another follows. */
   go(k) {
-    const last = this.moments.length - 1;
-    this.change({ shown: Math.min(Math.max(k, 0), last) });
-    return this.k < last;
+    this.change({ shown: Math.min(Math.max(k, 0), this.moments.length - 1) });
+    return !this.over;
   }
 
-  step(direction) {
-    this.player.pause();
-    this.go(this.k + direction);
-  }
-
-  playOrPause() {
-    if (this.player.playing) this.player.pause();
-    else {
-      if (this.k === this.moments.length - 1) this.go(0);
-      this.player.play();
-    }
-    this.drawButtons();
+  get over() {
+    return this.k === this.moments.length - 1;
   }
 
   /** Drive on a road now; recorded drives that were still to come make room for it. */
@@ -166,11 +126,6 @@ class MergingPaths {
     this.player.pause();
     const { scenario } = this.stage.state;
     this.change({ scenario: { ...scenario, seed: scenario.seed + OTHER_LUCK } });
-  }
-
-  reset() {
-    this.player.pause();
-    this.change(this.first);
   }
 
   // ---------------------------------------------------------------- drawing
@@ -195,15 +150,14 @@ class MergingPaths {
   }
 
   drawButtons() {
-    const { k, moments, player } = this;
-    const last = moments.length - 1;
+    const { k, over } = this;
     const full = k >= MOST_DRIVES ? `${MOST_DRIVES} drives are enough to see it` : "";
-    this.back.disabled(k === 0 ? "No drive yet" : "");
-    this.next.disabled(k === last ? "All recorded drives have been played; choose a road for another one" : "");
-    this.next.label = k === last ? "All played" : "Next drive";
-    this.play.disabled(last === 0 ? "No drive is recorded" : "");
-    this.play.label = player.playing ? "Pause" : "Play";
-    this.play.icon = player.playing ? "pause" : "play";
+    this.walk.draw({
+      begin: k === 0 ? "No drive yet" : "",
+      end: over ? "All recorded drives have been played; choose a road for another one" : "",
+      why: this.moments.length === 1 ? "No drive is recorded" : "",
+    });
+    this.walk.next.label = over ? "All played" : "Next drive";
     for (const road of this.roads) road.disabled(full);
   }
 }

@@ -2,39 +2,31 @@
  * Ten robots that learn from the reward that is mixed: how often they reach the goal, beside the reward before.
  */
 import { Band } from "../scenario/band.js";
-import { button } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
-import { Player } from "../views/player.js";
 import { written } from "./naming.js";
+import { PlayButton } from "./playback.js";
 
 const RUNS = 10;
 
 export class MixerLearning {
   constructor(stage, parent) {
-    this.stage = stage;
     this.band = null;
     this.before = null; // the curve of the reward before, with its name
-    this.player = new Player({
+    this.player = new PlayButton(stage, {
+      label: "Let it learn",
       tick: (ms) => this.band.run(ms),
       draw: () => this.draw(),
       speed: Infinity,
-      onStop: (error) => {
-        if (error) stage.message(error.message);
-        this.draw();
-        stage.say(this.words.textContent);
-      },
+      before: () => this.begin(),
+      onStop: () => stage.say(this.sentence(this.band.of("success"))),
+      onChange: () => this.draw(),
     });
-    this.go = button({ label: "Let it learn", icon: "play", onClick: () => this.toggle() });
     this.words = h("p", { class: "rl-help rl-mixer-learned" });
-    parent.append(h("div", { class: "rl-mixer-learn" }, this.go.element, this.words));
+    parent.append(h("div", { class: "rl-mixer-learn" }, this.player.element, this.words));
     const axes = { xLabel: "episode", yLabel: "share that reach the goal", height: 190 };
     this.chart = new CurveView(parent, { label: "Learning curve", ...axes });
-  }
-
-  destroy() {
-    this.player.destroy();
-    this.chart.destroy();
+    stage.onCleanup(() => this.chart.destroy());
   }
 
   /** Take over another reward, or map; `keep` leaves what was learned before beside it. */
@@ -48,16 +40,11 @@ export class MixerLearning {
     this.draw();
   }
 
-  toggle() {
-    if (this.player.playing) this.player.pause();
-    else {
-      const { mdp, task } = this.mix;
-      if (!this.band || this.band.done >= RUNS) {
-        this.band = new Band({ mdp, phi: task.phi(), scenario: this.scenario, entries: 1 }, RUNS);
-      }
-      this.player.play();
-    }
-    this.draw();
+  /** Begin with ten new robots, if the last ones have learned. */
+  begin() {
+    if (this.band && this.band.done < RUNS) return;
+    const { mdp, task } = this.mix;
+    this.band = new Band({ mdp, phi: task.phi(), scenario: this.scenario, entries: 1 }, RUNS);
   }
 
   draw() {
@@ -67,8 +54,7 @@ export class MixerLearning {
     if (this.before) series.push(line(this.before));
     this.chart.element.hidden = !now && !this.before;
     this.chart.draw({ series, yRange: [0, 1], xRange: [0, this.scenario.episodes] });
-    this.go.label = this.player.playing ? "Pause" : "Let it learn";
-    this.go.icon = this.player.playing ? "pause" : "play";
+    this.player.refresh("Let it learn");
     this.words.textContent = this.sentence(now);
   }
 

@@ -7,7 +7,7 @@ import { button, number, segmented, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { CRASH_AT, onTheWay } from "../views/glyphs.js";
 import { GridView } from "../views/grid.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
 import { Card, Gauges, Log, Scores } from "./mystery_board.js";
 import { buttonsInWords, noteOf, sentence, truth } from "./mystery_words.js";
 import { turnInWords } from "./naming.js";
@@ -20,37 +20,22 @@ const MOST = 999_999; // the number of a mystery
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new MysteryRobot(stage);
-  return () => figure.destroy();
+  new MysteryRobot(stage).open();
 }
 
-class MysteryRobot {
+class MysteryRobot extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "Where is the goal, and what do the buttons do?");
     this.motion = 0;
-    this.frame = frame(stage, {
-      question: "Where is the goal, and what do the buttons do?",
-      onReset: () => this.change(this.first),
-    });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
+    stage.onCleanup(() => cancelAnimationFrame(this.motion));
     stage.root.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  destroy() {
-    cancelAnimationFrame(this.motion);
-    this.map.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    const pair = h("div", { class: "rl-pair rl-mystery" }, left, right);
-    this.frame.body.append(this.frame.answer, pair, this.buildSettings());
-    this.map = new GridView(left, { label: "Map of what you have seen", cursor: false });
+    const { element, left, right } = pair("rl-mystery");
+    this.frame.body.append(this.frame.answer, element, this.buildSettings());
+    this.map = this.part(new GridView(left, { label: "Map of what you have seen", cursor: false }));
     this.card = new Card(left);
     this.keys = h("p", { class: "rl-help", text: "Solid: your best drive. Dashed: an optimal drive." });
     left.append(this.keys, this.buildPad());
@@ -96,30 +81,21 @@ class MysteryRobot {
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
+  prepare(state) {
     checkMystery(state);
     this.mystery = new Mystery(state);
-    this.level.value = state.level;
-    this.see.value = state.see;
-    this.seed.value = state.seed;
-    this.draw();
   }
 
-  /** Go to another state, as the reader wishes. */
-  change(state) {
-    this.stage.message("");
-    this.stage.update(state);
-    this.adopt(this.stage.state);
+  showAll() {
+    const { level, see, seed } = this.stage.state;
+    this.level.value = level;
+    this.see.value = see;
+    this.seed.value = seed;
+    this.draw();
   }
 
   mystify(patch) {
     this.change({ ...patch, drives: [], revealed: false });
-  }
-
-  set(patch) {
-    this.stage.update(patch);
-    this.draw();
   }
 
   press(letter) {

@@ -8,73 +8,52 @@ import { ALGORITHMS, judge, partsOf, ruleOf } from "../scenario/update.js";
 import { scaleOf } from "../scenario/wave.js";
 import { solve } from "../planning.js";
 import { unpackAll } from "../views/arrays.js";
-import { button, choice, group, number, segmented, slider, toggle, toolbar } from "../views/controls.js";
+import { choice, group, number, segmented, slider, toggle } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
-import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
+import { pair } from "./figure.js";
 import { Guess } from "./guess.js";
-import { rememberedProblem } from "./problem.js";
+import { Jumps } from "./jumps.js";
+import { Walk } from "./playback.js";
+import { TaskFigure } from "./task_figure.js";
 import { UpdateFormula } from "./update_formula.js";
 import { errorsOf, mapOf } from "./update_picture.js";
 import { UpdateRows } from "./update_rows.js";
 import { stepInWords, updateInWords } from "./update_words.js";
 
-const AT_ONCE = 20; // milliseconds that a search may take before the page is drawn
 const BETWEEN = 200; // milliseconds between two pictures of the curve while it plays
-const KINDS = [["episode", "end of an episode"], ["goal", "arrival at the goal"], ["surprise", "error above 1"]];
 const SPEEDS = [
   ["1", "1 step a second"], ["5", "5 steps a second"], ["50", "50 steps a second"], ["Infinity", "as fast as it can"],
 ];
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new OneUpdate(stage);
-  return () => figure.destroy();
+  new OneUpdate(stage).open();
 }
 
-class OneUpdate {
+class OneUpdate extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "What does one step teach the robot?");
     this.solved = false; // whether the number that is asked for has been found
     this.drawn = -Infinity; // when the curve was
-    this.problemOf = rememberedProblem();
-    this.player = new Player({
-      tick: (ms) => this.tick(ms),
-      draw: (at) => this.draw(at),
-      speed: 1,
-      onStop: (error) => this.rest(error),
-    });
-    this.search = null; // what is searched for: { kind, from }
-    this.searcher = new Player({ tick: (ms) => this.look(ms), draw: () => this.draw(), speed: Infinity });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-    stage.onData("tables", () => this.adopt(stage.state));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.searcher, this.map, this.chart]) part.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    this.frame = frame(this.stage, { question: "What does one step teach the robot?", onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair();
     this.algorithm = segmented({
       label: "Algorithm",
       hideLabel: true,
       options: Object.entries(ALGORITHMS).map(([key, { name }]) => [key, name]),
-      onChange: (algorithm) => this.change({ algorithm }),
+      onChange: (algorithm) => this.changeTask({ algorithm }),
     });
-    this.formula = new UpdateFormula(this.frame.body);
-    this.frame.body.prepend(this.algorithm.element);
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right));
-    this.map = new GridView(left, { label: "Map with what the robot has learned", cursor: false });
+    body.append(this.algorithm.element);
+    this.formula = new UpdateFormula(body);
+    body.append(element);
+    this.map = this.part(new GridView(left, { label: "Map with what the robot has learned", cursor: false }));
     this.legend = new Legend(left);
     left.append(this.buildSteps());
     this.guess = new Guess(right, {
@@ -82,36 +61,39 @@ class OneUpdate {
       judge: (value) => judge(this.parts, value),
       onSolved: () => this.solve(),
     });
-    right.append(this.frame.answer);
+    right.append(answer);
     this.rows = new UpdateRows(right);
     right.append(this.buildJumps());
     const axes = { xLabel: "update", yLabel: "TD error", height: 130 };
-    this.chart = new CurveView(this.frame.body, { label: "TD errors around this update", ...axes });
+    this.chart = this.part(new CurveView(body, { label: "TD errors around this update", ...axes }));
     this.scrubber = slider({ label: "Update", min: 0, max: 1, step: 1, value: 0, onInput: (n) => this.go(n) });
-    this.frame.body.append(this.scrubber.element, this.buildSettings());
+    body.append(this.scrubber.element, this.buildSettings());
   }
 
   buildSteps() {
-    this.back = button({ label: "Back", icon: "back", title: "Take the last step back", onClick: () => this.step(-1) });
-    this.play = button({ label: "Play", icon: "play", onClick: () => this.playOrPause() });
-    this.next = button({ label: "One step", icon: "step", primary: true, onClick: () => this.step(1) });
-    this.frame.focusFirst(this.next.element);
-    const tools = toolbar({ label: "Steps", children: [this.back, this.play, this.next] });
-    return h("div", { class: "rl-steps" }, tools.element);
+    this.walk = new Walk(this, {
+      back: { title: "Take the last step back" },
+      next: { label: "One step" },
+      speed: 1,
+      tick: (ms) => this.tick(ms),
+      draw: (at) => this.draw(at),
+      before: () => this.beforePlay(),
+      onChange: () => this.arrive(),
+    });
+    this.player = this.walk.player;
+    return h("div", { class: "rl-run" }, this.walk.row("Steps"));
   }
 
   buildJumps() {
-    this.kind = choice({ label: "Jump to", options: KINDS, value: "episode" });
-    this.previous = button({ label: "Previous", icon: "back", onClick: () => this.jumpBack() });
-    this.following = button({ label: "Next", icon: "step", onClick: () => this.jump() });
-    const tools = toolbar({ label: "Jumps", children: [this.previous, this.following] });
+    this.jumps = new Jumps(this);
     const setSpeed = (speed) => (this.player.speed = Number(speed));
     const speed = choice({ label: "Speed of playing", options: SPEEDS, value: "1", onChange: setSpeed });
-    return h("div", { class: "rl-jumps" }, this.kind.element, tools.element, speed.element);
+    const { kind, tools } = this.jumps;
+    return h("div", { class: "rl-jumps" }, kind.element, tools.element, speed.element);
   }
 
   buildSettings() {
-    const setting = (name) => (value) => this.change({ [name]: value });
+    const setting = (name) => (value) => this.changeTask({ [name]: value });
     this.rates = {
       alpha: slider({ label: "Step size α", min: 0.01, max: 1, step: 0.01, value: 1, onInput: setting("alpha") }),
       epsilon: slider({ label: "Exploration ε", min: 0, max: 1, step: 0.01, value: 0, onInput: setting("epsilon") }),
@@ -126,7 +108,7 @@ class OneUpdate {
     this.careless = toggle({
       label: "Let something follow the end",
       help: "A common bug: γ stays what it is after the goal and after a crash. With Q₀ = 0 it does no harm. Try 50.",
-      onChange: (end_has_value) => this.change({}, { end_has_value }),
+      onChange: (end_has_value) => this.change({ end_has_value }),
     });
     const bug = h("div", { class: "rl-row" }, this.Q0.element, this.careless.element);
     const breaking = group({ title: "Break it", children: [bug] });
@@ -136,25 +118,21 @@ class OneUpdate {
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    this.prepare(state);
-    const { scenario } = state;
+  showAll() {
+    const { scenario, guess, end_has_value: careless } = this.stage.state;
     this.algorithm.value = scenario.algorithm;
     for (const [name, one] of Object.entries(this.rates)) one.value = scenario[name];
-    this.asking.value = state.guess;
+    this.asking.value = guess;
     this.Q0.value = scenario.Q0;
-    this.careless.value = state.end_has_value;
-    this.solved = false;
-    this.guess.ask(state.guess);
-    this.draw();
+    this.careless.value = careless;
+    this.meet();
   }
 
   /** Begin the run of a state, and take it to the update that is shown. */
   prepare({ scenario, update, end_has_value }) {
     const tables = this.stage.data("tables");
     checkScenario(scenario);
-    const { task, mdp } = this.problemOf(scenario, tables);
+    const { task, mdp } = this.problemOf(scenario);
     const phi = unpackAll(tables ?? {}).phi ?? task.phi();
     const timeline = timelineOf(mdp, phi, ruleOf(scenario.algorithm, end_has_value), learnerOptions(scenario));
     timeline.seek(update);
@@ -162,34 +140,34 @@ class OneUpdate {
     Object.assign(this, { task, mdp, timeline });
   }
 
-  /** Begin another run; what cannot be becomes a message, and the last good run stays. */
-  change(scenario, patch = {}) {
-    const { state } = this.stage;
-    const changed = { ...patch, scenario: { ...state.scenario, ...scenario }, update: this.timeline.now };
-    if (!this.stage.attempt(() => this.prepare({ ...state, ...changed }))) return;
-    this.stage.message("");
-    this.stage.update(changed);
-    this.arrive();
+  /** Begin another run, and go on to the same update, or to the last one. */
+  change(patch) {
+    if (super.change({ ...patch, update: this.timeline.now })) this.stage.update({ update: this.timeline.now });
   }
 
-  /** Show the moment that the learner has come to. */
-  arrive() {
+  /** Show the moment that the learner has come to, and ask for its number. */
+  meet() {
     this.solved = false;
-    this.stage.update({ update: this.timeline.now });
     this.guess.ask(this.stage.state.guess && this.timeline.now > 0);
     this.drawn = -Infinity;
     this.draw();
   }
 
-  go(n) {
-    this.player.pause();
-    this.searcher.pause();
-    this.timeline.seek(Math.max(0, n));
-    this.arrive();
+  /** Keep the moment that the learner has come to, and show it. */
+  arrive() {
+    this.stage.update({ update: this.timeline.now });
+    this.meet();
   }
 
-  step(direction) {
-    this.go(this.timeline.now + direction);
+  get k() {
+    return this.timeline.now;
+  }
+
+  go(n) {
+    this.player.pause();
+    this.jumps.pause();
+    this.timeline.seek(Math.max(0, n));
+    this.arrive();
   }
 
   tick(milliseconds) {
@@ -198,44 +176,9 @@ class OneUpdate {
     return !this.timeline.done;
   }
 
-  playOrPause() {
-    if (this.player.playing) {
-      this.player.pause();
-      this.rest();
-    } else {
-      this.searcher.pause();
-      this.stage.message("");
-      this.player.play();
-    }
-  }
-
-  /** The player has stopped; `error` says why, if something went wrong. */
-  rest(error = null) {
-    if (error) this.stage.message(error.message);
-    this.arrive();
-  }
-
-  jumpBack() {
-    this.go(this.timeline.before(this.kind.value) ?? 0);
-  }
-
-  jump() {
-    this.player.pause();
+  beforePlay() {
+    this.jumps.pause();
     this.stage.message("");
-    this.search = { kind: this.kind.value, from: this.timeline.now };
-    if (this.look(AT_ONCE)) this.searcher.play();
-  }
-
-  /** Search for a while; return whether to go on. */
-  look(milliseconds) {
-    const found = this.timeline.advance(this.search.kind, milliseconds);
-    if (found === "more") return true;
-    if (found === "end") {
-      this.timeline.seek(this.search.from);
-      this.stage.message(`The rest of this run, ${this.timeline.reached} updates in all, has no such update.`, "note");
-    }
-    this.arrive();
-    return false;
   }
 
   ask(guess) {
@@ -248,15 +191,12 @@ class OneUpdate {
     this.solved = true;
     this.guess.ask(false);
     this.draw();
-    this.next.element.focus({ preventScroll: true });
+    this.walk.next.element.focus({ preventScroll: true });
   }
 
   reset() {
-    this.player.pause();
-    this.searcher.pause();
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
+    this.jumps.pause();
+    super.reset();
   }
 
   // ---------------------------------------------------------------- drawing
@@ -289,16 +229,12 @@ class OneUpdate {
   }
 
   drawControls() {
-    const { timeline, player, stage } = this;
-    const over = timeline.done ? "No update of this run is left" : "";
+    const { timeline, stage } = this;
+    const end = timeline.done ? "No update of this run is left" : "";
     const begin = timeline.now === 0 ? "This is the beginning" : "";
-    this.back.disabled(begin);
-    this.previous.disabled(begin);
-    this.next.disabled(over);
-    this.following.disabled(over);
-    this.play.disabled(over || (stage.state.guess ? "Guess first is on: take one step at a time" : ""));
-    this.play.label = player.playing ? "Pause" : "Play";
-    this.play.icon = player.playing ? "pause" : "play";
+    const why = end || (stage.state.guess ? "Guess first is on: take one step at a time" : "");
+    this.walk.draw({ begin, end, why });
+    this.jumps.draw({ begin, end });
     this.scrubber.limit(Math.max(timeline.reached, 1));
     this.scrubber.value = timeline.now;
   }

@@ -3,19 +3,20 @@
  */
 import { actionValues, checkPolicy } from "../mdp.js";
 import { evaluatePolicy } from "../prediction.js";
-import { HEADINGS, Pose } from "../robot.js";
+import { Pose } from "../robot.js";
 import { returns, rollout } from "../rollouts.js";
 import { ANY, chancesOf, compared, filled, painted, signOf, statistics } from "../scenario/painted.js";
-import { button, choice, segmented, slider, toolbar } from "../views/controls.js";
+import { button, segmented, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { DotAxis } from "./dot_axis.js";
-import { frame } from "./frame.js";
-import { ARROWS, poseInWords, turnText, written } from "./naming.js";
+import { pair } from "./figure.js";
+import { headingChoice, keysHelp, MapCursor } from "./map_cursor.js";
+import { poseInWords, turnText, written } from "./naming.js";
 import { mapOf, scaleOf } from "./paint_picture.js";
 import { comparison, sentence } from "./paint_words.js";
-import { rememberedProblem } from "./problem.js";
+import { TaskFigure } from "./task_figure.js";
 
 const MAX_STEPS = 1000; // of one drive; what comes later counts less than 0.0001
 const MOST_DRIVES = 2000;
@@ -24,47 +25,39 @@ const FILLS = [["straight", "straight on"], ["goal", "to the goal"], ["random", 
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new PaintPolicy(stage);
-  return () => figure.destroy();
+  new PaintPolicy(stage).open();
 }
 
-class PaintPolicy {
+class PaintPolicy extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
-    this.facing = 90; // the heading that the keyboard's cursor asks for
+    super(stage, "What is the policy worth that you paint?");
     this.difference = false; // whether the map compares with the kept policy
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-    stage.onData("tables", () => this.adopt(stage.state));
-  }
-
-  destroy() {
-    this.map.destroy();
-    this.axis.destroy();
+    this.cursor = new MapCursor({
+      onTell: (cell) => this.tell(cell),
+      enter: (cell) => {
+        this.use(this.at(cell));
+        this.tell(cell);
+      },
+    });
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const { stage } = this;
-    this.frame = frame(stage, { question: "What is the policy worth that you paint?", onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right));
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair();
+    body.append(element);
     left.append(this.buildBrush());
-    this.map = new GridView(left, {
+    this.map = this.part(new GridView(left, {
       label: "Map with the painted turns and the value of every pose",
       onCell: (event) => this.press(event),
-      onHover: (cell) => cell?.theta === null && this.tell(cell),
-      onKey: (event) => this.key(event),
-    });
+      onHover: (cell) => this.cursor.point(cell),
+      onKey: (event) => this.cursor.key(event, this.map),
+    }));
     this.legend = new Legend(left);
-    right.append(this.buildRun(), this.frame.answer);
-    this.axis = new DotAxis(right);
+    right.append(this.buildRun(), answer);
+    this.axis = this.part(new DotAxis(right));
     right.append(this.buildKeep());
-    this.frame.body.append(this.buildSettings());
+    body.append(this.buildSettings());
   }
 
   /** What a press on the map does, and whole policies. */
@@ -75,13 +68,7 @@ class PaintPolicy {
     this.brush = segmented({ label: "A press on the map means", options: brushes, onChange });
     const fill = ([kind, label]) => button({ label, icon: "brush", onClick: () => this.paintAll(kind) });
     const tools = toolbar({ label: "The same everywhere", children: FILLS.map(fill) });
-    const arrows = HEADINGS.map((theta) => [String(theta), `heading ${theta}° ${ARROWS[theta / 45]}`]);
-    this.heading = choice({
-      label: "Headings",
-      hideLabel: true,
-      options: [["all", "all headings"], ...arrows],
-      onChange: (theta) => this.set({ heading: theta === "all" ? null : Number(theta) }),
-    });
+    this.heading = headingChoice((heading) => this.set({ heading }));
     const fills = h("div", { class: "rl-fills" }, h("span", { class: "rl-label", text: "Everywhere:" }), tools.element);
     return h("div", { class: "rl-paint" }, this.brush.element, fills, this.heading.element);
   }
@@ -107,27 +94,17 @@ class PaintPolicy {
   }
 
   buildSettings() {
-    const set = (name) => (value) => this.change({ scenario: { ...this.stage.state.scenario, [name]: value } });
-    this.slip = slider({ label: "Slip", min: 0, max: 0.5, step: 0.05, value: 0, onInput: set("slip") });
-    this.gamma = slider({ label: "Discount γ", min: 0, max: 0.99, step: 0.01, value: 0, onInput: set("gamma") });
-    const row = h("div", { class: "rl-row" }, this.slip.element, this.gamma.element);
+    const row = h("div", { class: "rl-row" }, this.buildSlip(0.5), this.buildGamma(0.99));
     const keys = "Keys on the map: arrows move, R turns the heading, Enter does what a press does.";
-    return h("div", {}, row, h("p", { class: "rl-help rl-keys-help", text: keys }));
+    return h("div", {}, row, keysHelp(keys));
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    this.prepare(state);
-    this.showAll();
-  }
-
-  /** Show the present state, controls included. */
   showAll() {
     const { scenario, heading, brush, kept } = this.stage.state;
     this.slip.value = scenario.slip;
     this.gamma.value = scenario.gamma;
-    this.heading.value = heading === null ? "all" : String(heading);
+    this.heading.value = heading;
     this.brush.value = brush;
     this.map.touch = brush === "start" ? "scroll" : "paint";
     if (kept === null) this.difference = false;
@@ -136,7 +113,7 @@ class PaintPolicy {
 
   /** Evaluate the policies of a state exactly, and drive as often as it says. */
   prepare({ scenario, policy, kept, pose, drives }) {
-    const { task, mdp } = this.problemOf(scenario, this.stage.data("tables"));
+    const { task, mdp } = this.problemOf(scenario);
     const s = task.index(new Pose(...pose));
     const pi = checkPolicy(mdp, chancesOf(policy, mdp));
     const V = evaluatePolicy(mdp, pi);
@@ -154,19 +131,9 @@ class PaintPolicy {
     }
   }
 
-  /** Change what is computed; what cannot be becomes a message, and the last good state stays. */
+  /** Change what is computed, and drive again. */
   change(patch) {
-    const state = { ...this.stage.state, drives: Math.min(this.G.length, REPEATED), ...patch };
-    if (!this.stage.attempt(() => this.prepare(state))) return;
-    this.stage.message("");
-    this.stage.update(state);
-    this.showAll();
-  }
-
-  /** Change what is shown. */
-  set(patch) {
-    this.stage.update(patch);
-    this.draw();
+    return super.change({ drives: Math.min(this.G.length, REPEATED), ...patch });
   }
 
   drive(times) {
@@ -191,10 +158,8 @@ class PaintPolicy {
   }
 
   reset() {
-    this.stage.message("");
     this.difference = false;
-    this.stage.update(this.first);
-    this.adopt(this.first);
+    super.reset();
   }
 
   // ---------------------------------------------------------------- the map
@@ -216,24 +181,14 @@ class PaintPolicy {
     if (next !== policy) this.change({ policy: next });
   }
 
-  key({ key, shiftKey, ctrlKey, metaKey, altKey }) {
-    if (ctrlKey || metaKey || altKey) return false;
-    const [x, y] = this.map.cursor;
-    if (key === "Enter" || key === " ") this.use(this.at(x, y));
-    else if (key.toLowerCase() === "r") this.facing = (this.facing + (shiftKey ? 315 : 45)) % 360;
-    else return false;
-    this.tell({ x, y });
-    return true;
-  }
-
-  at(x, y) {
-    return { x, y, theta: this.stage.state.heading ?? this.facing };
+  at({ x, y }) {
+    return { x, y, theta: this.stage.state.heading ?? this.cursor.facing };
   }
 
   /** Tell what the keyboard's cursor is on. */
   tell({ x, y }) {
     if (this.task.world.blocked(x, y)) return this.stage.say(`cell (${x}, ${y}), an obstacle.`);
-    const pose = this.at(x, y);
+    const pose = this.at({ x, y });
     const s = this.task.index(new Pose(x, y, pose.theta));
     const sign = this.stage.state.policy[s];
     const turn = sign === ANY ? "any turn" : `turn ${turnText(this.task.robot.steering[sign])}`;

@@ -1,20 +1,20 @@
 /**
  * Policy iteration by hand: does a policy have to be evaluated to the end before it is improved?
  */
-import { HEADINGS, Pose } from "../robot.js";
+import { Pose } from "../robot.js";
 import { Rounds, Truth, wholeRun } from "../scenario/rounds.js";
-import { button, choice, segmented, slider, toolbar } from "../views/controls.js";
+import { button, segmented, toolbar } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
-import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
-import { ARROWS } from "./naming.js";
-import { rememberedProblem } from "./problem.js";
+import { pair } from "./figure.js";
+import { headingChoice, keysHelp, MapCursor } from "./map_cursor.js";
+import { PlayButton } from "./playback.js";
 import { curvesOf, mapOf, scaleOf } from "./rounds_picture.js";
 import { RunsTable, StepTable } from "./rounds_tables.js";
 import { aboutPose, sentence } from "./rounds_words.js";
+import { TaskFigure } from "./task_figure.js";
 
 const PACE = 6; // steps in a second of a run: time to see what each brings ...
 const QUICK = 40; // ... and of one with so many sweeps that nobody would wait for them
@@ -23,57 +23,40 @@ const AMOUNTS = [["1", "1"], ["3", "3"], ["10", "10"], ["30", "30"], ["all", "to
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new PolicyIteration(stage);
-  return () => figure.destroy();
+  new PolicyIteration(stage).open();
 }
 
-class PolicyIteration {
+class PolicyIteration extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
+    super(stage, "Must a policy be evaluated to the end before it is improved?");
     this.pointed = null; // a pose
-    this.facing = 90; // the heading that the keyboard's cursor asks for
-    this.player = new Player({
-      tick: () => this.tick(),
-      draw: () => {},
-      onStop: (error) => {
-        if (error) stage.message(error.message);
-        this.drawButtons();
-      },
+    this.cursor = new MapCursor({
+      onPoint: (cell) => this.point(cell),
+      onTell: () => this.pointed && stage.say(this.readout.textContent),
     });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.map, this.chart]) part.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const question = "Must a policy be evaluated to the end before it is improved?";
-    this.frame = frame(this.stage, { question, onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right));
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair();
+    body.append(element);
     left.append(this.buildLook());
-    this.map = new GridView(left, {
+    this.map = this.part(new GridView(left, {
       label: "Map with the value and the turn of every pose",
-      onCell: (event) => event.type === "down" && this.point(event),
-      onHover: (cell) => this.point(cell),
-      onKey: (event) => this.key(event),
-    });
+      onCell: (event) => event.type === "down" && this.cursor.point(event),
+      onHover: (cell) => this.cursor.point(cell),
+      onKey: (event) => this.cursor.key(event, this.map),
+    }));
     this.legend = new Legend(left);
     this.readout = h("p", { class: "rl-help rl-rounds-readout" });
     left.append(this.readout, this.buildRun(), this.amount.element);
-    right.append(this.frame.answer);
+    right.append(answer);
     this.numbers = new StepTable(right);
     const axes = { xLabel: "step", yLabel: "largest over all poses" };
-    this.chart = new CurveView(right, { label: "Errors after every step", ...axes });
+    this.chart = this.part(new CurveView(right, { label: "Errors after every step", ...axes }));
     this.runs = new RunsTable(right);
-    this.frame.body.append(this.buildSettings());
+    body.append(this.buildSettings());
   }
 
   /** What the map shows. */
@@ -84,13 +67,7 @@ class PolicyIteration {
       options: [["values", "Values"], ["errors", "Errors"], ["changed", "Changed"]],
       onChange: (show) => this.set({ show }),
     });
-    const arrows = HEADINGS.map((theta) => [String(theta), `heading ${theta}° ${ARROWS[theta / 45]}`]);
-    this.heading = choice({
-      label: "Headings",
-      hideLabel: true,
-      options: [["all", "all headings"], ...arrows],
-      onChange: (theta) => this.set({ heading: theta === "all" ? null : Number(theta) }),
-    });
+    this.heading = headingChoice((heading) => this.set({ heading }));
     return h("div", { class: "rl-rounds-look" }, this.show.element, this.heading.element);
   }
 
@@ -99,61 +76,56 @@ class PolicyIteration {
     this.back = button({ label: "Back", icon: "back", title: "One step back", onClick: () => this.step("back") });
     this.sweep = button({ label: "One sweep", icon: "step", primary: true, onClick: () => this.step("sweep") });
     this.improve = button({ label: "Improve", icon: "train", onClick: () => this.step("improve") });
-    this.run = button({ label: "Run to the end", icon: "play", onClick: () => this.playOrPause() });
+    this.player = new PlayButton(this.stage, {
+      label: "Run to the end",
+      tick: () => this.tick(),
+      before: () => this.prepareRun(),
+      onChange: () => this.drawButtons(),
+    });
     this.frame.focusFirst(this.sweep.element);
-    const tools = toolbar({ label: "Steps", children: [this.back, this.sweep, this.improve, this.run] });
+    const tools = toolbar({ label: "Steps", children: [this.back, this.sweep, this.improve, this.player] });
     this.amount = segmented({
       label: "A run improves after so many sweeps",
       options: AMOUNTS,
       onChange: (n) => this.set({ sweeps: n === "all" ? null : Number(n) }),
     });
-    return h("div", { class: "rl-rounds-run" }, tools.element);
+    return h("div", { class: "rl-run rl-rounds-run" }, tools.element);
   }
 
   buildSettings() {
-    const plan = (name) => (value) => this.plan({ scenario: { ...this.stage.state.scenario, [name]: value } });
-    this.gamma = slider({ label: "Discount γ", min: 0, max: 0.99, step: 0.01, value: 0, onInput: plan("gamma") });
-    this.slip = slider({ label: "Slip", min: 0, max: 1, step: 0.05, value: 0, onInput: plan("slip") });
-    const keys = "Keys on the map: arrows move, R turns the heading.";
-    const row = h("div", { class: "rl-row" }, this.gamma.element, this.slip.element);
-    return h("div", {}, row, h("p", { class: "rl-help rl-rounds-keys", text: keys }));
+    const row = h("div", { class: "rl-row" }, this.buildGamma(0.99), this.buildSlip(1));
+    return h("div", {}, row, keysHelp("Keys on the map: arrows move, R turns the heading."));
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
   adopt(state) {
     this.player.pause();
-    this.prepare(state);
-    const { scenario, sweeps, show, heading } = state;
+    super.adopt(state);
+  }
+
+  showAll() {
+    const { scenario, sweeps, show, heading } = this.stage.state;
     this.gamma.value = scenario.gamma;
     this.slip.value = scenario.slip;
     this.show.value = show;
-    this.heading.value = heading === null ? "all" : String(heading);
+    this.heading.value = heading;
     this.amount.value = sweeps === null ? "all" : String(sweeps);
     this.draw();
   }
 
   /** Go through the steps of a state in its world. */
   prepare({ scenario, tol, moves }) {
-    const { task, mdp, policy } = this.problemOf(scenario, this.stage.data("tables"));
+    const { task, mdp, policy } = this.problemOf(scenario);
     const truth = mdp === this.truth?.mdp ? this.truth : new Truth(mdp);
     const rounds = new Rounds(mdp, firstPolicy(task, mdp, policy), tol, truth);
     rounds.replay(moves);
     Object.assign(this, { task, truth, rounds, scale: scaleOf(truth) });
   }
 
-  /** Change the world; the same steps are taken in it. What cannot be becomes a message. */
-  plan(patch) {
+  /** Change the world; the same steps are taken in it. */
+  change(patch) {
     this.player.pause();
-    if (!this.stage.attempt(() => this.prepare({ ...this.stage.state, ...patch }))) return;
-    this.stage.message("");
-    this.set(patch);
-  }
-
-  /** Change what is shown. */
-  set(patch) {
-    this.stage.update(patch);
-    this.draw();
+    return super.change(patch);
   }
 
   /** Take one step: "sweep", "improve" or "back". */
@@ -171,38 +143,18 @@ class PolicyIteration {
     return more;
   }
 
-  playOrPause() {
-    if (this.player.playing) {
-      this.player.pause();
-    } else {
-      if (this.rounds.done) this.plan({ moves: "" });
-      this.player.speed = (this.stage.state.sweeps ?? Infinity) >= MANY ? QUICK : PACE;
-      this.player.play();
-    }
-    this.drawButtons();
-  }
-
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
+  /** A run begins anew if nothing is left to do. */
+  prepareRun() {
+    if (this.rounds.done) this.change({ moves: "" });
+    this.player.speed = (this.stage.state.sweeps ?? Infinity) >= MANY ? QUICK : PACE;
   }
 
   // ---------------------------------------------------------------- the map
   point(cell) {
     const { heading } = this.stage.state;
     const free = cell && !this.task.world.blocked(cell.x, cell.y);
-    this.pointed = free ? { x: cell.x, y: cell.y, theta: heading ?? cell.theta ?? this.facing } : null;
+    this.pointed = free ? { x: cell.x, y: cell.y, theta: heading ?? cell.theta ?? this.cursor.facing } : null;
     this.draw();
-    if (this.pointed && cell.theta === null) this.stage.say(this.readout.textContent); // the keyboard's cursor
-  }
-
-  key({ key, shiftKey }) {
-    if (key.toLowerCase() !== "r") return false;
-    this.facing = (this.facing + (shiftKey ? 315 : 45)) % 360;
-    const [x, y] = this.map.cursor;
-    this.point({ x, y, theta: null });
-    return true;
   }
 
   // ---------------------------------------------------------------- drawing
@@ -237,14 +189,12 @@ class PolicyIteration {
   }
 
   drawButtons() {
-    const { rounds, player } = this;
+    const { rounds } = this;
     const full = rounds.full ? `Here are ${rounds.limit} steps; start again for more` : "";
     this.back.disabled(rounds.length === 0 ? "This is the beginning" : "");
     this.sweep.disabled(full);
     this.improve.disabled(full);
-    this.run.disabled(full);
-    this.run.label = player.playing ? "Pause" : rounds.done ? "Run again" : "Run to the end";
-    this.run.icon = player.playing ? "pause" : "play";
+    this.player.refresh(rounds.done ? "Run again" : "Run to the end", full);
   }
 }
 

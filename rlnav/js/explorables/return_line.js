@@ -8,38 +8,33 @@ import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { CRASH_AT } from "../views/glyphs.js";
 import { GridView } from "../views/grid.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
 import { timed, written } from "./naming.js";
 import { ReturnLane } from "./return_lane.js";
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new ReturnLine(stage);
-  return () => figure.destroy();
+  new ReturnLine(stage).open();
 }
 
-class ReturnLine {
+class ReturnLine extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "Which way is worth more?");
     this.lanes = [];
-    this.frame = frame(stage, { question: "Which way is worth more?", onReset: () => this.reset() });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
+    stage.onCleanup(() => this.removeLanes());
   }
 
-  destroy() {
-    for (const part of [this.map, this.chart, ...this.lanes]) part?.destroy();
+  removeLanes() {
+    for (const lane of this.lanes) lane.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
     const { body, answer } = this.frame;
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    body.append(h("div", { class: "rl-pair rl-return-pair" }, left, right));
-    if (this.first.map) this.map = new GridView(left, { label: "Map with both ways", cursor: false, maxCell: 60 });
+    const { element, left, right } = pair("rl-return-pair");
+    body.append(element);
+    const look = { label: "Map with both ways", cursor: false, maxCell: 60 };
+    if (this.first.map) this.map = this.part(new GridView(left, look));
     this.gamma = slider({
       label: "Discount γ", min: 0, max: 1, step: 0.01, value: 0, onInput: (gamma) => this.set({ gamma }),
     });
@@ -48,14 +43,14 @@ class ReturnLine {
     this.below = h("div", { class: "rl-column" });
     left.append(this.all.element, this.below);
     const axes = { xLabel: "discount γ", yLabel: "G₀: worth at the beginning" };
-    this.chart = new CurveView(this.below, { label: "Worth of both ways at every discount", height: 190, ...axes });
+    const label = "Worth of both ways at every discount";
+    this.chart = this.part(new CurveView(this.below, { label, height: 190, ...axes }));
     this.tie = h("p", { class: "rl-tie" });
     this.below.append(this.tie);
     this.place = h("div", { class: "rl-lanes" });
-    this.help = h("p", { class: "rl-help rl-keys-help" });
-    this.help.textContent = "Outline: the reward. Filled: what counts of it at the time that is built. " +
+    const text = "Outline: the reward. Filled: what counts of it at the time that is built. " +
       "Drag a knob, or use the keys: left and right pick a reward, up and down change it.";
-    right.append(this.place, this.help);
+    right.append(this.place, h("p", { class: "rl-help", text }));
   }
 
   bar() {
@@ -73,7 +68,7 @@ class ReturnLine {
     const sizes = JSON.stringify(ways.map(({ rewards }) => rewards.length));
     if (sizes === this.sizes) return;
     this.sizes = sizes;
-    for (const lane of this.lanes) lane.destroy();
+    this.removeLanes();
     this.place.replaceChildren();
     const columns = endOf(ways);
     this.lanes = ways.map(({ rewards }, place) => new ReturnLane(this.place, {
@@ -88,7 +83,7 @@ class ReturnLine {
     return this.stage.state.known;
   }
 
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
+  /** Take over a whole state, in its complete form. */
   adopt(given) {
     const state = checkWays(given);
     if (state.map) this.world = worldOf({ map: state.map, starts: null });
@@ -97,11 +92,6 @@ class ReturnLine {
     this.buildLanes(state.ways);
     this.gamma.value = state.gamma;
     this.all.value = state.curves;
-    this.draw();
-  }
-
-  set(patch) {
-    this.stage.update(patch);
     this.draw();
   }
 
@@ -115,10 +105,6 @@ class ReturnLine {
     const ways = this.stage.state.ways.map((way, i) =>
       i === place ? { ...way, rewards: way.rewards.with(t, r) } : way);
     this.set({ ways });
-  }
-
-  reset() {
-    this.adopt(this.first);
   }
 
   // ---------------------------------------------------------------- drawing

@@ -3,16 +3,17 @@
  */
 import { Mixer, MOST_GAMMA, placeAt, RECIPES, recipeOf } from "../scenario/mixer.js";
 import { PRESETS } from "../scenario/edits.js";
-import { button, choice, group, slider, toggle, toolbar } from "../views/controls.js";
+import { choice, group, slider, toggle, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
-import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
+import { MapCursor } from "./map_cursor.js";
 import { MixerLearning } from "./mixer_learning.js";
 import { drawn, fateKey } from "./mixer_picture.js";
 import { MixerTable } from "./mixer_table.js";
 import { signed, tally, verdict } from "./mixer_words.js";
 import { poseInWords } from "./naming.js";
+import { PlayButton } from "./playback.js";
 
 const SPEED = 5; // steps a second
 const TERMS = [
@@ -28,60 +29,50 @@ const MORE = { corridor: "a corridor", maze: "a maze", cliff: "a cliff" };
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new RewardMixer(stage);
-  return () => figure.destroy();
+  new RewardMixer(stage).open();
 }
 
-class RewardMixer {
+class RewardMixer extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "What does this reward ask for?");
     this.mixer = new Mixer();
-    this.facing = 0; // the heading that the keyboard's cursor asks for
-    this.player = new Player({
-      tick: () => this.tick(),
-      draw: (at) => this.drawRobot(at),
-      speed: SPEED,
-      onStop: (error) => {
-        if (error) stage.message(error.message);
-        this.drawRobot(1);
-        this.drawButton();
-      },
-    });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.map, this.learning]) part.destroy();
+    this.keep = false; // what was learned before the present mix
+    this.cursor = new MapCursor({ facing: 0, onTell: (cell) => this.tell(cell), enter: (cell) => this.pick(cell) });
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    this.frame = frame(this.stage, { question: "What does this reward ask for?", onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair rl-mixer" }, left, right));
-    this.map = new GridView(left, {
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair("rl-mixer");
+    body.append(element);
+    this.map = this.part(new GridView(left, {
       label: "Map with the drive that is best by this reward",
       onCell: (event) => event.type === "down" && event.button === 0 && this.pick(event),
-      onHover: (cell) => cell?.theta === null && this.tell(cell),
-      onKey: (event) => this.key(event),
-    });
+      onHover: (cell) => this.cursor.point(cell),
+      onKey: (event) => this.cursor.key(event, this.map),
+    }));
     this.keyed = h("div", { class: "rl-fates" });
     left.append(this.keyed, this.buildRun(), this.buildTask());
-    right.append(this.frame.answer);
+    right.append(answer);
     this.table = new MixerTable(right);
     right.append(this.buildMix());
-    this.learning = new MixerLearning(this.stage, this.frame.body);
+    this.learning = new MixerLearning(this.stage, body);
   }
 
   buildRun() {
-    this.play = button({ label: "Watch it drive", icon: "play", primary: true, onClick: () => this.playOrPause() });
-    this.frame.focusFirst(this.play.element);
+    this.player = new PlayButton(this.stage, {
+      label: "Watch it drive",
+      primary: true,
+      tick: () => this.tick(),
+      draw: (at) => this.drawRobot(at),
+      speed: SPEED,
+      before: () => this.atEnd && this.begin(),
+      onStop: () => this.drawRobot(1),
+      onChange: () => this.drawButton(),
+    });
+    this.frame.focusFirst(this.player.element);
     this.counted = h("p", { class: "rl-help rl-tally" });
-    return h("div", { class: "rl-mixer-run" }, toolbar({ label: "Drive", children: [this.play] }).element, this.counted);
+    return h("div", { class: "rl-run" }, toolbar({ label: "Drive", children: [this.player] }).element, this.counted);
   }
 
   buildMix() {
@@ -122,26 +113,26 @@ class RewardMixer {
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
+  prepare(state) {
     this.mix = this.mixer.mix(state);
+  }
+
+  adopt(state) {
+    this.prepare(state);
     this.stage.message("");
     this.player.pause();
-    this.show(state, false);
+    this.keep = false;
+    this.showAll();
   }
 
-  /** Change a part of the state; what cannot be becomes a message, and the last good reward stays. */
+  /** Mix anew, and `keep` what was learned before, for comparison. */
   change(patch, keep = true) {
-    const state = { ...this.stage.state, ...patch };
-    if (!this.stage.attempt(() => (this.mix = this.mixer.mix(state)))) return;
-    this.stage.message("");
-    this.stage.update(patch);
-    this.show(state, keep);
+    this.keep = keep;
+    return super.change(patch);
   }
 
-  /** Show what is mixed; `keep` what was learned before, for comparison. */
-  show(state, keep) {
-    const { scenario, task_reward: taskReward } = state;
+  showAll() {
+    const { scenario, task_reward: taskReward } = this.stage.state;
     const name = recipeOf(scenario.reward, taskReward);
     this.recipe.value = name;
     for (const [key, one] of Object.entries(this.terms)) one.value = scenario.reward[key];
@@ -152,7 +143,7 @@ class RewardMixer {
     this.frame.say(verdict(this.mix));
     this.map.describe(`${verdict(this.mix)} Arrow keys move, R turns the heading, Enter starts the robot there.`);
     this.table.draw(this.mix.worth);
-    this.learning.adopt(this.mix, scenario, this.recipe.input.selectedOptions[0].text, keep);
+    this.learning.adopt(this.mix, scenario, this.recipe.input.selectedOptions[0].text, this.keep);
     this.keyed.replaceChildren(...fateKey(this.mix, this.stage.reducedMotion));
     this.drawRobot(1);
     this.drawButton();
@@ -179,33 +170,18 @@ class RewardMixer {
     return same(this.first.scenario.map) ? "page" : Object.keys(PRESETS).find((name) => same(PRESETS[name].map)) ?? "page";
   }
 
-  reset() {
-    this.stage.update(this.first);
-    this.adopt(this.first);
-  }
-
   // ---------------------------------------------------------------- the map
   pick({ x, y, theta }) {
     const { world } = this.mix.task;
     if (world.blocked(x, y) || world.isGoal(x, y)) return;
-    this.change({ pose: [x, y, theta ?? this.facing] });
+    this.change({ pose: [x, y, theta ?? this.cursor.facing] });
     this.tell({ x, y });
   }
 
   tell({ x, y }) {
     const { task } = this.mix;
     const what = task.world.blocked(x, y) ? ", a wall" : task.world.isGoal(x, y) ? ", the goal" : "";
-    this.stage.say(what ? `cell (${x}, ${y})${what}.` : `${poseInWords({ x, y, theta: this.facing })}.`);
-  }
-
-  key({ key, shiftKey }) {
-    const [x, y] = this.map.cursor;
-    if (key === "Enter" || key === " ") this.pick({ x, y, theta: null });
-    else if (key.toLowerCase() === "r") {
-      this.facing = (this.facing + (shiftKey ? 315 : 45)) % 360;
-      this.tell({ x, y });
-    } else return false;
-    return true;
+    this.stage.say(what ? `cell (${x}, ${y})${what}.` : `${poseInWords({ x, y, theta: this.cursor.facing })}.`);
   }
 
   // ---------------------------------------------------------------- the drive
@@ -228,13 +204,9 @@ class RewardMixer {
     return drive.loop !== null || this.t < last;
   }
 
-  playOrPause() {
-    if (this.player.playing) this.player.pause();
-    else {
-      if (!this.mix.drive.loop && this.t === this.mix.drive.states.length - 1) this.begin();
-      this.player.play();
-    }
-    this.drawButton();
+  get atEnd() {
+    const { loop, states } = this.mix.drive;
+    return !loop && this.t === states.length - 1;
   }
 
   // ---------------------------------------------------------------- drawing
@@ -244,8 +216,6 @@ class RewardMixer {
   }
 
   drawButton() {
-    const { playing } = this.player;
-    this.play.label = playing ? "Pause" : `Watch it ${this.mix.drive.end === "circle" ? "circle" : "drive"}`;
-    this.play.icon = playing ? "pause" : "play";
+    this.player.refresh(`Watch it ${this.mix.drive.end === "circle" ? "circle" : "drive"}`);
   }
 }

@@ -13,8 +13,8 @@ import { Player } from "../views/player.js";
 import { ArmsView } from "./bandit_arms.js";
 import { lookOf, RivalsView } from "./bandit_rivals.js";
 import { playing, revealed } from "./bandit_words.js";
-import { frame } from "./frame.js";
-import { rememberedProblem } from "./problem.js";
+import { pair } from "./figure.js";
+import { TaskFigure } from "./task_figure.js";
 
 const EXACT = 1e-12;
 const ROBOTS = 200; // of a strategy in the comparison
@@ -23,54 +23,47 @@ const SETTINGS = ["epsilon", "tau", "c", "Q0", "alpha"];
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new SteeringBandit(stage);
-  return () => figure.destroy();
+  new SteeringBandit(stage).open();
 }
 
-class SteeringBandit {
+class SteeringBandit extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
-    this.player = new Player({ tick: (ms) => this.crowd.runFor(ms), draw: () => this.drawRivals(), speed: Infinity });
-    this.prepare(stage.state);
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
+    super(stage, "Which turn pays best, and what does it cost to find out?");
+    this.player = this.part(
+      new Player({ tick: (ms) => this.crowd.runFor(ms), draw: () => this.drawRivals(), speed: Infinity }),
+    );
     stage.root.addEventListener("keydown", (event) => this.key(event));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.map, this.chart]) part.destroy();
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const question = "Which turn pays best, and what does it cost to find out?";
-    this.frame = frame(this.stage, { question, onReset: () => this.reset() });
-    const column = () => h("div", { class: "rl-column" });
-    const [left, right, below, beside] = [column(), column(), column(), column()];
-    this.after = h("div", { class: "rl-pair" }, below, beside); // what follows the truth
-    this.frame.body.append(h("div", { class: "rl-pair rl-bandit" }, left, right), this.after);
-    this.map = new GridView(left, { label: "Map with the robot and its turns", cursor: false, maxHeight: 360 });
+    this.prepare(this.first); // the robot has turns
+    const { element, left, right } = pair("rl-bandit");
+    const { element: after, left: below, right: beside } = pair();
+    this.after = after; // what follows the truth
+    this.frame.body.append(element, after);
+    this.map = this.part(
+      new GridView(left, { label: "Map with the robot and its turns", cursor: false, maxHeight: 360 }),
+    );
     right.append(this.frame.answer);
     this.arms = new ArmsView(right, this.task.robot.steering, { onPick: (a) => this.pick(a) });
     this.frame.focusFirst(this.arms.rows[0].pick.element);
     right.append(this.buildTools());
     this.rivals = new RivalsView(below, {
       onToggle: (name, on) => this.toggle(name, on),
-      onChange: (parameter, value) => this.compare({ [parameter]: value }),
+      onChange: (parameter, value) => this.change({ [parameter]: value }),
     });
     const axes = { xLabel: "pulls", yLabel: "regret" };
-    this.chart = new CurveView(beside, { label: "Regret of you and of the strategies", ...axes });
+    this.chart = this.part(new CurveView(beside, { label: "Regret of you and of the strategies", ...axes }));
     this.bands = h("p", { class: "rl-help" });
     beside.append(this.bands);
     this.frame.body.append(this.buildSettings());
   }
 
   buildTools() {
-    const onClick = () => this.set({ shown: true });
-    this.reveal = button({ label: "Tell me the truth, and let strategies play", icon: "play", onClick });
+    this.reveal = button({
+      label: "Tell me the truth, and let strategies play", icon: "play", onClick: () => this.tell(),
+    });
     this.anew = button({ label: "New game", icon: "reset", title: "Another pose, other luck", onClick: () => this.newGame() });
     return toolbar({ label: "Game", children: [this.reveal, this.anew] }).element;
   }
@@ -78,22 +71,21 @@ class SteeringBandit {
   buildSettings() {
     const most = { min: 20, max: 1000, step: 10 };
     this.noise = slider({
-      label: "Noise", min: 0, max: 6, step: 0.5, value: 0, onInput: (noise) => this.compare({ noise }),
+      label: "Noise", min: 0, max: 6, step: 0.5, value: 0, onInput: (noise) => this.change({ noise }),
     });
-    this.pulls = slider({ label: "Pulls of a robot", ...most, value: 20, onInput: (pulls) => this.compare({ pulls }) });
+    this.pulls = slider({ label: "Pulls of a robot", ...most, value: 20, onInput: (pulls) => this.change({ pulls }) });
     this.alpha = segmented({
       label: "Step size of a robot",
       options: [["mean", "1/N"], ["0.1", "0.1"]],
-      onChange: (alpha) => this.compare({ alpha: alpha === "mean" ? null : Number(alpha) }),
+      onChange: (alpha) => this.change({ alpha: alpha === "mean" ? null : Number(alpha) }),
     });
     const parts = [this.noise, this.pulls, this.alpha].map((one) => one.element);
     return h("div", { class: "rl-row" }, parts);
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    this.prepare(state);
+  showAll() {
+    const { state } = this.stage;
     this.noise.value = state.noise;
     this.pulls.value = state.pulls;
     this.alpha.value = state.alpha === null ? "mean" : String(state.alpha);
@@ -103,7 +95,7 @@ class SteeringBandit {
 
   /** Build the bandit of a state, and let its robots begin. */
   prepare(state) {
-    const { task, mdp } = this.problemOf({ ...state.scenario, starts: null }, this.stage.data("tables"));
+    const { task, mdp } = this.problemOf({ ...state.scenario, starts: null });
     const Q = mdp === this.mdp ? this.Q : solve(mdp, { tol: EXACT }).Q;
     const s = task.index(new Pose(...state.pose));
     const bandit = new Bandit(Q.subarray(s * mdp.A, (s + 1) * mdp.A), state.noise);
@@ -123,32 +115,21 @@ class SteeringBandit {
     if (state.shown) this.player.play();
   }
 
-  /** Change what is compared; what cannot be becomes a message, and the last good state stays. */
-  compare(patch) {
-    const state = { ...this.stage.state, ...patch };
-    if (!this.stage.attempt(() => this.prepare(state))) return;
-    this.stage.message("");
-    this.stage.update(patch);
-    this.rivals.adopt(state);
-    this.draw();
-  }
-
   toggle(name, on) {
     const names = Object.keys(STRATEGIES);
     const { playing: now } = this.stage.state;
-    this.compare({ playing: names.filter((one) => (one === name ? on : now.includes(one))) });
+    this.change({ playing: names.filter((one) => (one === name ? on : now.includes(one))) });
   }
 
-  set(patch) {
-    this.compare(patch);
-    if (patch.shown) this.anew.input.focus({ preventScroll: true });
+  tell() {
+    this.change({ shown: true });
+    this.anew.input.focus({ preventScroll: true });
   }
 
   pick(a) {
     const { turns, shown } = this.stage.state;
     if (shown || turns.length >= BY_HAND) return;
-    this.stage.update({ turns: [...turns, a] });
-    this.draw();
+    this.set({ turns: [...turns, a] });
   }
 
   /** Take the robot to another pose with other luck. */
@@ -157,15 +138,9 @@ class SteeringBandit {
     const seed = scenario.seed + 1;
     const poses = games(this.mdp, this.Q);
     const { x, y, theta } = this.task.pose(poses[Math.floor(new Generator(seed).random() * poses.length)]);
-    this.compare({ scenario: { ...scenario, seed }, pose: [x, y, theta], turns: [], shown: false });
+    this.change({ scenario: { ...scenario, seed }, pose: [x, y, theta], turns: [], shown: false });
     this.player.pause();
     this.arms.rows[0].pick.input.focus({ preventScroll: true });
-  }
-
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
   }
 
   key(event) {

@@ -3,18 +3,19 @@
  */
 import { fail } from "../check.js";
 import { Pose } from "../robot.js";
-import { paint } from "../scenario/edits.js";
 import { taskOf, whyNot } from "../scenario/model.js";
 import { chancesOf, fanOf, Reach } from "../scenario/reach.js";
-import { button, choice, slider, toggle, toolbar } from "../views/controls.js";
+import { button, choice, slider, toolbar } from "../views/controls.js";
 import { h } from "../views/dom.js";
 import { CRASH_AT, onTheWay } from "../views/glyphs.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { FanPicture } from "./fan_picture.js";
 import { movesInWords, sentence } from "./fan_words.js";
-import { frame } from "./frame.js";
+import { Figure, pair } from "./figure.js";
+import { keysHelp, MapCursor } from "./map_cursor.js";
 import { poseInWords, turnText } from "./naming.js";
+import { Walls } from "./walls.js";
 
 const TURNS = [-180, -135, -90, -45, 0, 45, 90, 135, 180];
 const MOST = 12; // steps
@@ -23,38 +24,35 @@ const CRASH = "#d55e00"; // as --rl-crash
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const fan = new SteeringFan(stage);
-  return () => fan.map.destroy();
+  new SteeringFan(stage).open();
 }
 
-class SteeringFan {
+class SteeringFan extends Figure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
+    super(stage, "Where can the robot be in a few steps?");
     this.hovered = null; // a pose that is pointed at
-    this.facing = 90; // the heading that the keyboard's cursor asks for
-    this.stroke = null; // while walls are drawn: whether they are built or taken away
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
+    this.cursor = new MapCursor({
+      onPoint: (cell) => this.point(cell),
+      onTell: () => stage.say(this.hovered ? this.tell(this.hovered) : "a wall"),
+      enter: ({ x, y }) => this.place(x, y, this.cursor.facing),
+      w: (cell) => this.walls.flip(cell),
+    });
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const onReset = () => this.reset();
-    this.frame = frame(this.stage, { question: "Where can the robot be in a few steps?", onReset });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(this.buildTurns(), h("div", { class: "rl-pair" }, left, right), this.buildSettings());
-    this.map = new GridView(left, {
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair();
+    body.append(this.buildTurns(), element, this.buildSettings());
+    this.map = this.part(new GridView(left, {
       label: "Map with all poses that can be reached",
       onCell: (event) => this.press(event),
-      onHover: (cell) => this.point(cell),
-      onKey: (event) => this.key(event),
-    });
+      onHover: (cell) => this.cursor.point(cell),
+      onKey: (event) => this.cursor.key(event, this.map),
+    }));
     this.legend = new Legend(left);
     left.append(this.buildRun());
-    right.append(this.frame.answer);
+    right.append(answer);
     this.picture = new FanPicture(right);
     this.moves = h("p", { class: "rl-help rl-moves" });
     right.append(this.moves);
@@ -74,23 +72,23 @@ class SteeringFan {
     this.frame.focusFirst(this.more.element);
     const tools = toolbar({ label: "Steps", children: [this.back, this.more] });
     this.scrubber = slider({ label: "Steps", min: 0, max: MOST, step: 1, value: 0, onInput: (k) => this.go(k) });
-    return h("div", { class: "rl-fan-run" }, tools.element, this.scrubber.element);
+    return h("div", { class: "rl-run rl-scrubbed" }, tools.element, this.scrubber.element);
   }
 
   buildSettings() {
     const tell = (told) => this.change({ told: told === NONE ? null : Number(told) });
     this.told = choice({ label: "The robot is told", options: [[NONE, "any turn"]], value: NONE, onChange: tell });
     this.slip = slider({ label: "Slip", min: 0, max: 1, step: 0.05, value: 0, onInput: (p) => this.setSlip(p) });
-    this.walls = toggle({ label: "Draw walls", onChange: (on) => (this.map.touch = on ? "paint" : "scroll") });
+    const here = (x, y) => x === this.pose.x && y === this.pose.y;
+    this.walls = new Walls(this, (x, y) => (here(x, y) ? "The robot stands there." : ""));
     const row = h("div", { class: "rl-row" }, [this.told, this.slip, this.walls].map((one) => one.element));
     const keys = "Keys on the map: arrows move, R turns the heading, Enter puts the robot there, W sets or takes a wall.";
-    return h("div", {}, row, h("p", { class: "rl-help rl-keys-help", text: keys }));
+    return h("div", {}, row, keysHelp(keys));
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    const { scenario, pose: [x, y, theta], steps, told } = state;
+  prepare(state) {
+    const { scenario, pose: [x, y, theta], steps } = state;
     const trouble = whyNot({ ...scenario, starts: null });
     if (trouble) fail("map", "one on which the goal can be reached", "another", trouble);
     const task = taskOf({ ...scenario, starts: null });
@@ -99,11 +97,10 @@ class SteeringFan {
     Object.assign(this, { reach: new Reach(task, pose), task, pose, k: steps });
     this.fan = fanOf(task, pose);
     if (this.hovered && task.world.blocked(this.hovered.x, this.hovered.y)) this.hovered = null; // a wall by now
-    this.showSettings(scenario, told);
-    this.draw();
   }
 
-  showSettings({ steering, slip }, told) {
+  showAll() {
+    const { scenario: { steering, slip }, told } = this.stage.state;
     this.turns.forEach((turn, i) => {
       turn.pressed = steering.includes(TURNS[i]);
       turn.disabled(turn.pressed && steering.length === 1 ? "The robot needs at least one turn." : "");
@@ -112,14 +109,7 @@ class SteeringFan {
     this.told.input.replaceChildren(...options.map(([value, text]) => h("option", { value, text })));
     this.told.value = told === null ? NONE : String(told);
     this.slip.value = slip;
-  }
-
-  /** Change what is shown; what cannot be becomes a message, and the last good state stays. */
-  change(patch) {
-    const state = { ...this.stage.state, ...patch };
-    if (!this.stage.attempt(() => this.adopt(state))) return;
-    this.stage.message("");
-    this.stage.update(patch);
+    this.draw();
   }
 
   /** Slips are those of a turn that is told: where none is, the straightest one. */
@@ -140,25 +130,13 @@ class SteeringFan {
   go(k) {
     const steps = Math.min(Math.max(k, 0), MOST);
     this.k = steps;
-    this.stage.update({ steps });
-    this.draw();
-  }
-
-  reset() {
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
+    this.set({ steps });
   }
 
   // ---------------------------------------------------------------- the map
   press(event) {
-    const { type, x, y, button: which } = event;
-    if (this.walls.value) {
-      if (type === "down") this.stroke = !this.task.world.blocked(x, y);
-      if (type === "down" || type === "move") this.paint(x, y, this.stroke);
-    } else if (type === "down" && which === 0) {
-      this.place(x, y, event.theta);
-    }
+    const { type, x, y, theta, button: pressed } = event;
+    if (!this.walls.press(event) && type === "down" && pressed === 0) this.place(x, y, theta);
   }
 
   /** Put the robot on a pose. */
@@ -171,34 +149,16 @@ class SteeringFan {
     this.change({ pose: [x, y, theta] });
   }
 
-  paint(x, y, wall) {
-    if (this.task.world.blocked(x, y) === wall) return;
-    if (x === this.pose.x && y === this.pose.y) this.stage.message("The robot stands there.");
-    else this.stage.attempt(() => this.change({ scenario: paint(this.stage.state.scenario, x, y, wall) }));
-  }
-
   point(cell) {
     const free = cell && !this.task.world.blocked(cell.x, cell.y);
-    this.hovered = free ? new Pose(cell.x, cell.y, cell.theta ?? this.facing) : null;
+    this.hovered = free ? new Pose(cell.x, cell.y, cell.theta ?? this.cursor.facing) : null;
     this.drawMap();
-    if (cell && cell.theta === null) this.stage.say(this.hovered ? this.tell(this.hovered) : "a wall");
   }
 
   tell(pose) {
     const steps = this.reach.steps[this.task.index(pose)];
     const how = steps < 0 ? "cannot be reached" : `first reached in step ${steps}`;
     return `${poseInWords(pose)}: ${how}.`;
-  }
-
-  key({ key, shiftKey }) {
-    const [x, y] = this.map.cursor;
-    if (key === "Enter" || key === " ") this.place(x, y, this.facing);
-    else if (key.toLowerCase() === "w") this.paint(x, y, !this.task.world.blocked(x, y));
-    else if (key.toLowerCase() === "r") {
-      this.facing = (this.facing + (shiftKey ? 315 : 45)) % 360;
-      this.point({ x, y, theta: null });
-    } else return false;
-    return true;
   }
 
   // ---------------------------------------------------------------- drawing

@@ -8,11 +8,12 @@ import { button, choice, segmented, slider, toolbar } from "../views/controls.js
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
-import { rememberedProblem } from "./problem.js";
+import { pair } from "./figure.js";
+import { PlayButton } from "./playback.js";
 import { learnedCurves, sumCurves } from "./step_picture.js";
 import { SumTable, Verdict } from "./step_verdict.js";
 import { sentence } from "./step_words.js";
+import { TaskFigure } from "./task_figure.js";
 
 const KINDS = [
   ["constant", "constant c"],
@@ -28,30 +29,14 @@ const EXACT = 1e-12;
 
 /** Build the figure on its stage. */
 export function start(stage) {
-  const figure = new StepSizes(stage);
-  return () => figure.destroy();
+  new StepSizes(stage).open();
 }
 
-class StepSizes {
+class StepSizes extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
-    this.player = new Player({
-      tick: () => this.go(this.n + Math.max(1, Math.round(PART * this.n))),
-      draw: () => {},
-      speed: TICKS,
-      onStop: () => this.drawButtons(),
-    });
+    super(stage, "Which step sizes settle, and where?");
     const tick = (ms) => this.study.runFor(ms);
-    this.worker = new Player({ tick, draw: () => this.drawLearned(), speed: Infinity });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.worker, this.sums, this.learned]) part.destroy();
+    this.worker = this.part(new Player({ tick, draw: () => this.drawLearned(), speed: Infinity }));
   }
 
   get n() {
@@ -64,17 +49,15 @@ class StepSizes {
 
   // ---------------------------------------------------------------- building
   build() {
-    const question = "Which step sizes settle, and where?";
-    this.frame = frame(this.stage, { question, onReset: () => this.reset() });
     const { body, answer } = this.frame;
     body.append(this.buildSchedule());
     this.verdict = new Verdict(body);
     body.append(this.buildRun(), answer);
-    const [left, right] = [h("div", { class: "rl-column" }), h("div", { class: "rl-column" })];
-    body.append(h("div", { class: "rl-pair rl-step-pair" }, left, right));
+    const { element, left, right } = pair("rl-step-pair");
+    body.append(element);
     const axes = { xLabel: "updates n", height: 210 };
     left.append(h("p", { class: "rl-step-title", text: "The two sums" }));
-    this.sums = new CurveView(left, { label: "Sums of step sizes and of their squares", ...axes });
+    this.sums = this.part(new CurveView(left, { label: "Sums of step sizes and of their squares", ...axes }));
     this.table = new SumTable(left);
     this.watch = segmented({
       label: "Watch",
@@ -83,7 +66,7 @@ class StepSizes {
       onChange: (watch) => this.change({ watch, shown: Math.min(this.n, LONGEST[watch]) }),
     });
     right.append(this.watch.element);
-    this.learned = new CurveView(right, { label: "What is learned", ...axes });
+    this.learned = this.part(new CurveView(right, { label: "What is learned", ...axes }));
     this.note = h("p", { class: "rl-help" });
     right.append(this.note);
   }
@@ -99,10 +82,17 @@ class StepSizes {
   }
 
   buildRun() {
-    this.run = button({ label: "Run", icon: "play", primary: true, onClick: () => this.playOrPause() });
-    this.frame.focusFirst(this.run.element);
+    this.player = new PlayButton(this.stage, {
+      label: "Run",
+      primary: true,
+      tick: () => this.go(this.n + Math.max(1, Math.round(PART * this.n))),
+      speed: TICKS,
+      before: () => this.n === this.longest && this.go(0),
+      onChange: () => this.drawButtons(),
+    });
+    this.frame.focusFirst(this.player.element);
     this.luck = button({ label: "Other luck", title: "The same runs with other chance", onClick: () => this.reseed() });
-    const tools = toolbar({ label: "Run", children: [this.run, this.luck] });
+    const tools = toolbar({ label: "Run", children: [this.player, this.luck] });
     this.scrubber = slider({ label: "Updates", min: 0, max: 1000, step: 1, value: 0, onInput: (n) => this.go(n) });
     return h("div", { class: "rl-step-run" }, tools.element, this.scrubber.element);
   }
@@ -113,7 +103,7 @@ class StepSizes {
     const { scenario, pose, steering, watch, kind, c, p, until } = state;
     const key = JSON.stringify([scenario, pose, steering, watch, kind, c, p, until]);
     if (key === this.key) return;
-    const { task, mdp } = this.problemOf(scenario, this.stage.data("tables"));
+    const { task, mdp } = this.problemOf(scenario);
     if (mdp !== this.mdp) {
       const entry = entryOf(mdp, task.index(new Pose(...pose)), task.robot.steering.indexOf(steering));
       Object.assign(this, { mdp, entry, best: solve(mdp, { tol: EXACT }).Q });
@@ -127,10 +117,9 @@ class StepSizes {
     this.worker.play();
   }
 
-  adopt(state) {
-    this.prepare(state);
-    const { kind, c, p, until, watch } = state;
-    Object.assign(this.kind, { value: kind });
+  showAll() {
+    const { kind, c, p, until, watch } = this.stage.state;
+    this.kind.value = kind;
     this.c.value = c;
     this.p.value = p;
     this.until.value = until;
@@ -140,39 +129,14 @@ class StepSizes {
     this.draw();
   }
 
-  /** Take over a change; what cannot be becomes a message, and the last good state stays. */
-  change(patch) {
-    const state = { ...this.stage.state, ...patch };
-    if (!this.stage.attempt(() => this.prepare(state))) return;
-    this.stage.message("");
-    this.stage.update(patch);
-    this.adopt(this.stage.state);
-  }
-
   /** Show n updates; return whether more can follow. */
   go(n) {
-    this.stage.update({ shown: Math.min(Math.max(n, 0), this.longest) });
-    this.draw();
+    this.set({ shown: Math.min(Math.max(n, 0), this.longest) });
     return this.n < this.longest;
   }
 
-  playOrPause() {
-    if (this.player.playing) this.player.pause();
-    else {
-      if (this.n === this.longest) this.go(0);
-      this.player.play();
-    }
-    this.drawButtons();
-  }
-
   reseed() {
-    const { scenario } = this.stage.state;
-    this.change({ scenario: { ...scenario, seed: scenario.seed + SEEDS.entry } });
-  }
-
-  reset() {
-    this.player.pause();
-    this.change(this.first);
+    this.changeTask({ seed: this.stage.state.scenario.seed + SEEDS.entry });
   }
 
   // ---------------------------------------------------------------- drawing
@@ -199,9 +163,8 @@ class StepSizes {
   }
 
   drawButtons() {
-    const { player, longest, n } = this;
-    this.run.label = player.playing ? "Pause" : n === longest ? "Run again" : "Run";
-    this.run.icon = player.playing ? "pause" : "play";
+    const { longest, n } = this;
+    this.player.refresh(n === longest ? "Run again" : "Run");
     this.scrubber.limit(longest);
     this.scrubber.value = n;
   }

@@ -1,19 +1,21 @@
 /**
  * The value wave: how does the news of the goal travel?  Value iteration on the map, sweep by sweep, forward and back.
  */
-import { HEADINGS, Pose } from "../robot.js";
-import { paint } from "../scenario/edits.js";
+import { Pose } from "../robot.js";
 import { scaleOf, Wave } from "../scenario/wave.js";
-import { button, choice, segmented, slider, toggle, toolbar } from "../views/controls.js";
+import { segmented, slider } from "../views/controls.js";
 import { CurveView } from "../views/curve.js";
 import { h } from "../views/dom.js";
 import { GridView } from "../views/grid.js";
 import { Legend } from "../views/legend.js";
 import { Player } from "../views/player.js";
-import { frame } from "./frame.js";
+import { pair } from "./figure.js";
 import { LookAhead } from "./look_ahead.js";
-import { ARROWS, poseInWords, poseText, written } from "./naming.js";
-import { rememberedProblem } from "./problem.js";
+import { headingChoice, keptOrNot, keysHelp, MapCursor } from "./map_cursor.js";
+import { poseInWords, written } from "./naming.js";
+import { Walk } from "./playback.js";
+import { TaskFigure } from "./task_figure.js";
+import { Walls } from "./walls.js";
 import { curvesOf, mapOf } from "./wave_picture.js";
 import { sentence } from "./wave_words.js";
 
@@ -21,59 +23,43 @@ const SWEEPS_A_SECOND = 2.5;
 
 /** Build the figure on a stage. */
 export function start(stage) {
-  const figure = new ValueWave(stage);
-  return () => figure.destroy();
+  new ValueWave(stage).open();
 }
 
-class ValueWave {
+class ValueWave extends TaskFigure {
   constructor(stage) {
-    this.stage = stage;
-    this.first = stage.state; // what "Start again" comes back to
-    this.problemOf = rememberedProblem();
+    super(stage, "How does the news of the goal travel?");
     this.hovered = null; // a pose that is pointed at
-    this.facing = 90; // the heading that the keyboard's cursor asks for
-    this.stroke = null; // while walls are drawn: whether they are built or taken away
-    this.player = new Player({
-      tick: () => this.go(this.k + 1),
-      draw: () => {},
-      speed: SWEEPS_A_SECOND,
-      onStop: (error) => {
-        if (error) stage.message(error.message);
-        this.drawButtons();
-      },
+    this.cursor = new MapCursor({
+      onPoint: (cell) => this.point(cell),
+      onTell: (cell) => this.tell(cell),
+      enter: (cell) => this.pick(cell),
+      w: (cell) => this.walls.flip(cell),
     });
-    this.ahead = new Player({ tick: (ms) => this.wave.runFor(ms), draw: () => this.draw(), speed: Infinity });
-    this.build();
-    this.adopt(stage.state);
-    stage.onState((state) => this.adopt(state));
-    stage.onData("tables", () => this.adopt(stage.state));
-  }
-
-  destroy() {
-    for (const part of [this.player, this.ahead, this.map, this.chart]) part.destroy();
+    this.ahead = this.part(
+      new Player({ tick: (ms) => this.wave.runFor(ms), draw: () => this.draw(), speed: Infinity }),
+    );
   }
 
   // ---------------------------------------------------------------- building
   build() {
-    const { stage } = this;
-    this.frame = frame(stage, { question: "How does the news of the goal travel?", onReset: () => this.reset() });
-    const left = h("div", { class: "rl-column" });
-    const right = h("div", { class: "rl-column" });
-    this.frame.body.append(h("div", { class: "rl-pair" }, left, right));
+    const { body, answer } = this.frame;
+    const { element, left, right } = pair();
+    body.append(element);
     left.append(this.buildLook());
-    this.map = new GridView(left, {
+    this.map = this.part(new GridView(left, {
       label: "Map with the value of every pose",
       onCell: (event) => this.press(event),
-      onHover: (cell) => this.point(cell),
-      onKey: (event) => this.key(event),
-    });
+      onHover: (cell) => this.cursor.point(cell),
+      onKey: (event) => this.cursor.key(event, this.map),
+    }));
     this.legend = new Legend(left);
     left.append(this.buildRun());
-    right.append(this.frame.answer);
+    right.append(answer);
     this.lookAhead = new LookAhead(right);
     const axes = { xLabel: "sweep", yLabel: "largest over all poses" };
-    this.chart = new CurveView(right, { label: "Changes and errors", ...axes });
-    this.frame.body.append(this.buildSettings());
+    this.chart = this.part(new CurveView(right, { label: "Changes and errors", ...axes }));
+    body.append(this.buildSettings());
   }
 
   /** What the map shows. */
@@ -84,37 +70,26 @@ class ValueWave {
       options: [["values", "Values"], ["changes", "Changes"]],
       onChange: (show) => this.set({ show }),
     });
-    const arrows = HEADINGS.map((theta) => [String(theta), `heading ${theta}° ${ARROWS[theta / 45]}`]);
-    this.heading = choice({
-      label: "Headings",
-      hideLabel: true,
-      options: [["all", "all headings"], ...arrows],
-      onChange: (theta) => this.set({ heading: theta === "all" ? null : Number(theta) }),
-    });
-    this.walls = toggle({
-      label: "Draw walls",
-      onChange: (on) => (this.map.touch = on ? "paint" : "scroll"),
-    });
+    this.heading = headingChoice((heading) => this.set({ heading }));
+    this.walls = new Walls(this);
     const parts = [this.show, this.heading, this.walls];
     return h("div", { class: "rl-look" }, parts.map((part) => part.element));
   }
 
   /** What runs the sweeps. */
   buildRun() {
-    this.back = button({ label: "Back", icon: "back", title: "One sweep back", onClick: () => this.step(-1) });
-    this.play = button({ label: "Play", icon: "play", onClick: () => this.playOrPause() });
-    this.next = button({ label: "One sweep", icon: "step", primary: true, onClick: () => this.step(1) });
-    this.frame.focusFirst(this.next.element);
-    const tools = toolbar({ label: "Sweeps", children: [this.back, this.play, this.next] });
+    this.walk = new Walk(this, {
+      back: { title: "One sweep back" },
+      next: { label: "One sweep" },
+      speed: SWEEPS_A_SECOND,
+    });
+    this.player = this.walk.player;
     this.scrubber = slider({ label: "Sweep", min: 0, max: 1, step: 1, value: 0, onInput: (k) => this.go(k) });
-    return h("div", { class: "rl-wave-run" }, tools.element, this.scrubber.element);
+    return h("div", { class: "rl-run rl-scrubbed" }, this.walk.row("Sweeps"), this.scrubber.element);
   }
 
   /** What the planner is told. */
   buildSettings() {
-    const plan = (name) => (value) => this.plan({ scenario: { ...this.stage.state.scenario, [name]: value } });
-    this.gamma = slider({ label: "Discount γ", min: 0, max: 0.99, step: 0.01, value: 0, onInput: plan("gamma") });
-    this.slip = slider({ label: "Slip", min: 0, max: 1, step: 0.05, value: 0, onInput: plan("slip") });
     this.tol = slider({
       label: "Tolerance",
       min: 1e-6,
@@ -122,89 +97,60 @@ class ValueWave {
       log: true,
       value: 1,
       format: (v) => (v < 0.001 ? v.toExponential().replace("-", "−") : String(v)),
-      onInput: (tol) => this.plan({ tol }),
+      onInput: (tol) => this.change({ tol }),
     });
-    const row = h("div", { class: "rl-row" }, [this.gamma, this.slip, this.tol].map((one) => one.element));
+    const row = h("div", { class: "rl-row" }, this.buildGamma(0.99), this.buildSlip(1), this.tol.element);
     const keys = "Keys on the map: arrows move, R turns the heading, Enter picks a pose, W sets or takes away a wall.";
-    return h("div", {}, row, h("p", { class: "rl-help rl-keys-help", text: keys }));
+    return h("div", {}, row, keysHelp(keys));
   }
 
   // ---------------------------------------------------------------- changing
-  /** Take over a whole state; one that cannot be throws and leaves what there is. */
-  adopt(state) {
-    this.prepare(state);
-    const { scenario, tol, show, heading } = state;
+  showAll() {
+    const { scenario, tol, show, heading } = this.stage.state;
     this.gamma.value = scenario.gamma;
     this.slip.value = scenario.slip;
     this.tol.value = tol;
     this.show.value = show;
-    this.heading.value = heading === null ? "all" : String(heading);
+    this.heading.value = heading;
     const own = Boolean(this.stage.data("tables")?.mdp);
-    this.walls.disabled(own ? "Python made this model; its map stays as it is." : "");
+    this.walls.box.disabled(own ? "Python made this model; its map stays as it is." : "");
     this.draw();
   }
 
   /** Plan in the world of a state: all sweeps up to the one that is shown now, the others when there is time. */
   prepare({ scenario, tol, sweep }) {
-    const { task, mdp } = this.problemOf({ ...scenario, starts: null }, this.stage.data("tables")); // it starts nowhere
+    const { task, mdp } = this.problemOf({ ...scenario, starts: null }); // it starts nowhere
     const wave = new Wave(mdp, tol, mdp === this.wave?.mdp ? this.wave.best : null);
     const scale = scaleOf(wave.best.filter((_, s) => !mdp.terminal[s])); // fails where nothing is best
     Object.assign(this, { task, wave, scale, k: wave.run(sweep) });
     this.ahead.play();
   }
 
-  /** Change what is planned; what cannot be becomes a message, and the last good state stays. */
-  plan(patch) {
-    const state = { ...this.stage.state, ...patch, sweep: this.k };
-    if (!this.stage.attempt(() => this.prepare(state))) return;
-    this.stage.message("");
-    this.set({ ...patch, sweep: this.k });
-  }
-
-  /** Change what is shown. */
-  set(patch) {
-    this.stage.update(patch);
-    this.draw();
+  /** Plan anew, with as many sweeps as are shown, or as there are. */
+  change(patch) {
+    if (super.change({ ...patch, sweep: this.k })) this.stage.update({ sweep: this.k });
   }
 
   /** Show sweep k, or the last one there is; return whether another follows. */
   go(k) {
     this.k = this.wave.run(Math.max(0, k));
     this.set({ sweep: this.k });
-    return !this.wave.done || this.k < this.wave.length;
+    return !this.over;
   }
 
-  step(direction) {
-    this.player.pause();
-    this.go(this.k + direction);
-  }
-
-  playOrPause() {
-    if (this.player.playing) this.player.pause();
-    else {
-      if (this.wave.done && this.k === this.wave.length) this.go(0);
-      this.player.play();
-    }
-    this.drawButtons();
-  }
-
-  reset() {
-    this.player.pause();
-    this.stage.message("");
-    this.stage.update(this.first);
-    this.adopt(this.first);
+  get over() {
+    return this.wave.done && this.k === this.wave.length;
   }
 
   // ---------------------------------------------------------------- the map
   poseAt({ x, y, theta }) {
     const inside = x >= 0 && !this.task.world.blocked(x, y);
-    return inside ? { x, y, theta: this.stage.state.heading ?? theta ?? this.facing } : null;
+    return inside ? { x, y, theta: this.stage.state.heading ?? theta ?? this.cursor.facing } : null;
   }
 
   point(cell) {
     this.hovered = cell && this.poseAt(cell);
     this.draw();
-    if (cell?.theta === null) this.tell(cell); // the keyboard's cursor
   }
 
   tell(cell) {
@@ -228,36 +174,14 @@ class ValueWave {
   }
 
   press(event) {
-    if (this.walls.value) {
-      if (event.type === "down") this.stroke = !this.task.world.blocked(event.x, event.y);
-      if (event.type === "down" || event.type === "move") this.paint(event.x, event.y, this.stroke);
-    } else if (event.type === "down" && event.button === 0) {
-      this.pick(event);
-    }
+    if (!this.walls.press(event) && event.type === "down" && event.button === 0) this.pick(event);
   }
 
   /** Keep the numbers of a pose in view; the same pose again lets it go. */
   pick(cell) {
     const pose = this.poseAt(cell);
-    const again = pose && this.picked && poseText(pose) === poseText(this.picked);
-    this.set({ pose: again || !pose ? null : [pose.x, pose.y, pose.theta] });
+    this.set({ pose: keptOrNot(pose, this.picked) });
     if (pose) this.tell(cell);
-  }
-
-  paint(x, y, wall) {
-    if (this.task.world.blocked(x, y) === wall) return;
-    this.stage.attempt(() => this.plan({ scenario: paint(this.stage.state.scenario, x, y, wall) }));
-  }
-
-  key({ key, shiftKey }) {
-    const [x, y] = this.map.cursor;
-    if (key === "Enter" || key === " ") this.pick({ x, y, theta: null });
-    else if (key.toLowerCase() === "w") this.paint(x, y, !this.task.world.blocked(x, y));
-    else if (key.toLowerCase() === "r") {
-      this.facing = (this.facing + (shiftKey ? 315 : 45)) % 360;
-      this.point({ x, y, theta: null });
-    } else return false;
-    return true;
   }
 
   // ---------------------------------------------------------------- drawing
@@ -290,13 +214,11 @@ class ValueWave {
   }
 
   drawButtons() {
-    const { wave, k, player } = this;
-    const last = wave.done && k === wave.length;
-    this.back.disabled(k === 0 ? "This is the beginning" : "");
-    this.next.disabled(last ? "No value changes any more by more than the limit" : "");
-    this.play.label = player.playing ? "Pause" : "Play";
-    this.play.icon = player.playing ? "pause" : "play";
-    this.scrubber.limit(Math.max(wave.length, 1));
-    this.scrubber.value = k;
+    this.walk.draw({
+      begin: this.k === 0 ? "This is the beginning" : "",
+      end: this.over ? "No value changes any more by more than the limit" : "",
+    });
+    this.scrubber.limit(Math.max(this.wave.length, 1));
+    this.scrubber.value = this.k;
   }
 }
