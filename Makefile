@@ -5,6 +5,8 @@ PY    := .venv/bin/python
 READY := .venv/ready
 # Every page anew: pages that were built before would keep their warnings to themselves.
 BUILD := .venv/bin/jupyter-book build . --all -W -n --keep-going --quiet
+# Tests on every core, those of one file on the same: they share a browser, a kernel, or what was compiled.
+SIDE_BY_SIDE := -n auto --dist loadfile
 PORT  ?= 8000
 
 # The first of these that is new enough. Looked for only when .venv has to be made.
@@ -34,9 +36,9 @@ lab: $(READY)  ## open the chapters in JupyterLab, where every control is live
 test: lint  ## run every test: library, notebooks, and each page of the book in a real browser
 	@$(PY) tools/vendor.py
 	@$(PY) tools/browser.py
-	$(PY) -m pytest -n auto --dist loadfile
-	$(PY) -m pytest -p tests.notebooks.strict book
-	$(PY) -m pytest --nbval book
+	$(PY) -m pytest $(SIDE_BY_SIDE)
+	$(PY) -m pytest $(SIDE_BY_SIDE) -p tests.notebooks.strict book
+	$(PY) -m pytest $(SIDE_BY_SIDE) --nbval book
 
 lint: $(READY)  ## check style, types and the layers of the library
 	$(PY) -m ruff check .

@@ -3,6 +3,7 @@
 import hashlib
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ ESBUILD = ROOT / "tools" / "vendor" / "esbuild"
 ENTRY = re.compile(r'class="rlnav-explorable" data-entry="([\w/]+)"')
 
 
+@cache
 def minified(script: str) -> str:
     """Give local names one letter; where there is no minifier for this system, the script stays as it is."""
     program = next(ESBUILD.rglob("esbuild*"), None) if ESBUILD.is_dir() else None

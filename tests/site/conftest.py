@@ -9,7 +9,7 @@ import pytest
 import browsing
 import sample
 import vendor
-from building import ROOT, build
+from building import ROOT, build, once
 
 TOC = """
 format: jb-book
@@ -21,9 +21,11 @@ chapters:
 
 
 @pytest.fixture(scope="session")
-def book(tmp_path_factory):
-    """The folder of the book's pages. Always a fresh build: a stale page would prove nothing."""
-    return build(ROOT, tmp_path_factory.mktemp("book")) / "html"
+def book(tmp_path_factory, worker_id):
+    """The folder of the book's pages, for all workers. Always a fresh build: a stale page would prove nothing."""
+    own = tmp_path_factory.getbasetemp()
+    this_run = own if worker_id == "master" else own.parent
+    return once(this_run / "book", lambda: build(ROOT, tmp_path_factory.mktemp("book")) / "html")
 
 
 @pytest.fixture(scope="session")

@@ -14,22 +14,28 @@ from ..widgets.pages import first_button
 CHAPTERS = [name for name in parse_toc_yaml(ROOT / "_toc.yml") if re.match(r"book/\d\d-", name)]
 LIVE = re.compile(r"\bis-live\b")
 LECTURE = re.compile(r"\brl-lecture\b")
+every_chapter = pytest.mark.parametrize("name", CHAPTERS, scope="module")
 
 
-@pytest.fixture(params=browsing.WIDTHS)
-def explorable(request, browser, address, name):
-    """The first explorable of a chapter, live, at the width of a desk or of a telephone."""
-    with browsing.visit(
-        browser, f"{address}{name}.html", request.param, has_touch=request.param == "telephone"
-    ) as here:
-        element = here.page.locator(".rlnav-explorable").first
-        element.scroll_into_view_if_needed()
-        expect(element).to_have_class(LIVE)
-        yield element
-        assert here.complaints == []
+@pytest.fixture(scope="module", params=browsing.WIDTHS)
+def here(request, browser, address, name):
+    """A chapter at the width of a desk or of a telephone, open for all that is tried there."""
+    width = request.param
+    with browsing.visit(browser, f"{address}{name}.html", width, has_touch=width == "telephone") as here:
+        yield here
 
 
-@pytest.mark.parametrize("name", CHAPTERS)
+@pytest.fixture
+def explorable(here):
+    """The first explorable of the chapter, live."""
+    element = here.page.locator(".rlnav-explorable").first
+    element.scroll_into_view_if_needed()
+    expect(element).to_have_class(LIVE)
+    yield element
+    assert here.complaints == []
+
+
+@every_chapter
 def test_its_first_button_does_something(explorable):
     frame = explorable.locator(".rlnav")
     before = frame.inner_text()
@@ -38,7 +44,7 @@ def test_its_first_button_does_something(explorable):
     expect(explorable.locator(".rl-error")).to_have_count(0)
 
 
-@pytest.mark.parametrize("name", CHAPTERS)
+@every_chapter
 def test_it_has_a_lecture_view(explorable):
     frame = explorable.locator(".rlnav")
     frame.get_by_role("button", name="Lecture view").click()

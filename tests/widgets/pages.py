@@ -1,5 +1,6 @@
 """Write a page with explorables, and all that it loads, as the book does."""
 
+from contextlib import contextmanager
 from pathlib import Path
 
 from explorables import minified
@@ -57,6 +58,33 @@ def state_now(page, number=0):
     """The same without waiting: the page is told that it is left, and saves what it has."""
     page.evaluate("dispatchEvent(new Event('pagehide'))")
     return state_of(page, number)
+
+
+def kernel_sets(page, patch):
+    """Change a part of the state of the page's first explorable, as its kernel would."""
+    page.evaluate(
+        """patch => {
+          const { model } = document.querySelector('.rlnav-explorable');
+          model.set('state', { ...model.get('state'), ...patch });
+        }""",
+        patch,
+    )
+
+
+@contextmanager
+def in_lecture(page):
+    """Show the explorable in the lecture view, and then the page again."""
+    page.get_by_role("button", name="Lecture view").click()
+    yield
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Lecture view").wait_for()
+
+
+def fits_into(page, width):
+    """Whether nothing sticks out sideways in a window of so many pixels."""
+    page.set_viewport_size({"width": width, "height": 740})
+    settled(page)
+    return page.evaluate("document.documentElement.scrollWidth") <= width
 
 
 def settled(page):

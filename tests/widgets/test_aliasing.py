@@ -9,7 +9,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import Aliasing, _scenario
 
-from .pages import settled
+from .pages import fits_into, in_lecture, kernel_sets
 from .pages import state_now as state_of
 
 ROOM = rl.GridWorld.from_ascii(".....\n...G.\n.#...\n.....\nS....")
@@ -239,11 +239,9 @@ def test_start_again_goes_back_to_the_page_as_it_was(page_of):
 
 def test_the_space_bar_drives_in_a_lecture(page_of):
     here = page_of(Aliasing(TASK, HERE))
-    here.page.get_by_role("button", name="Lecture view").click()
-    here.page.keyboard.press("Space")
-    expect(here.page.locator(".rl-told")).to_contain_text("Drive 1:")
-    here.page.keyboard.press("Escape")
-    here.page.get_by_role("button", name="Lecture view").wait_for()
+    with in_lecture(here.page):
+        here.page.keyboard.press("Space")
+        expect(here.page.locator(".rl-told")).to_contain_text("Drive 1:")
 
 
 @pytest.mark.parametrize("width", browsing.WIDTHS)
@@ -251,20 +249,14 @@ def test_the_space_bar_drives_in_a_lecture(page_of):
 def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme):
     here = page_of(Aliasing(ICY, HERE, drives=30), width=width, scheme=scheme)
     assert findings(here.page) == []
-    here.page.set_viewport_size({"width": 360, "height": 740})
-    settled(here.page)
-    assert here.page.evaluate("document.documentElement.scrollWidth") <= 360
-
-
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
+    assert fits_into(here.page, 360)
 
 
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(Aliasing(TASK, HERE))
-    here.page.evaluate(TELL, {"perceive": "heading", "drives": 5})
+    kernel_sets(here.page, {"perceive": "heading", "drives": 5})
     expect(words(here)).to_contain_text("only the heading 45° ↗")
-    here.page.evaluate(TELL, {"pose": [1, 2, 0]})
+    kernel_sets(here.page, {"pose": [1, 2, 0]})
     here.page.get_by_role("alert").first.get_by_text("`pose` must be on a free cell").wait_for()
     expect(words(here)).to_contain_text("only the heading 45° ↗")
 

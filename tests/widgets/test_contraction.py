@@ -12,7 +12,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import Contraction, _scenario
 
-from .pages import state_now
+from .pages import fits_into, kernel_sets, state_now
 
 WORLD = rl.GridWorld.from_ascii(rl.maps.OBSTACLES)
 TASK = rl.Task(WORLD, rl.Robot(slip=0.2))
@@ -260,15 +260,11 @@ def test_what_cannot_be_computed_is_told_and_the_last_good_state_stays(page_of):
     assert ruler(here)[1] == pytest.approx(10)
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(Contraction(TASK, backups=4))
-    here.page.evaluate(TELL, {"backups": 2, "backup": "mean", "pose": [8, 6, 90]})
+    kernel_sets(here.page, {"backups": 2, "backup": "mean", "pose": [8, 6, 90]})
     expect(here.page.locator(".rl-numbers-scroll caption")).to_have_text("Backup 2 at (8, 6) ↑")
-    here.page.evaluate(TELL, {"scenario": {"map": ["#G#", "###"], "slip": 2}})
+    kernel_sets(here.page, {"scenario": {"map": ["#G#", "###"], "slip": 2}})
     expect(here.page.get_by_role("alert").first).to_contain_text("must be")
     press(here, "One backup")
     expect(words(here)).to_contain_text("Backup 3:")
@@ -284,8 +280,7 @@ def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme)
 
 def test_it_fits_into_360_pixels(page_of):
     here = page_of(Contraction(TASK, backup="mean", backups=3), width="telephone")
-    here.page.set_viewport_size({"width": 360, "height": 740})
-    assert here.page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert fits_into(here.page, 360)
 
 
 # ---------------------------------------------------------------- Python

@@ -9,7 +9,7 @@ from accessibility import findings
 from rlnav.widgets import ControlTour
 from rlnav.widgets._control_tour import KINDS, MOST_STEPS, round_task
 
-from .pages import settled, state_of
+from .pages import kernel_sets, settled, state_of
 
 DRIVES = """async turns => {
   const {drive, roundTask} = await import('/scenario/round.js');
@@ -171,16 +171,12 @@ def test_nothing_stands_in_anyones_way(page_of, width, scheme):
     assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(ControlTour())
-    here.page.evaluate(TELL, {"turn": 0, "steps": 1, "tried": ["menu"]})
+    kernel_sets(here.page, {"turn": 0, "steps": 1, "tried": ["menu"]})
     told(here, "After 1 step the robot is in cell (1, 2), heading 90°.")
     assert ticked(here) == {"menu"}
-    here.page.evaluate(TELL, {"turn": 30})
+    kernel_sets(here.page, {"turn": 30})
     expect(here.page.get_by_role("alert").first).to_contain_text("`turn` must be one of")
     told(here, "After 1 step the robot is in cell (1, 2), heading 90°.")
     click(here, "One step")

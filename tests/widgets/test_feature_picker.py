@@ -12,7 +12,7 @@ from accessibility import findings
 from rlnav import designs
 from rlnav.widgets import FeaturePicker
 
-from .pages import settled
+from .pages import kernel_sets, settled
 from .pages import state_now as state_of
 
 WORLD = rl.GridWorld.from_ascii(rl.maps.OBSTACLES)
@@ -204,12 +204,10 @@ def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme)
 
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(picker())
-    tell = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-    tell += " model.set('state', {...model.get('state'), ...patch}); }"
     scenario = {**picker(designs.heading()).state["scenario"]}
-    here.page.evaluate(tell, {"scenario": scenario})
+    kernel_sets(here.page, {"scenario": scenario})
     expect(words(here)).to_contain_text("It can tell 8 situations apart")
-    here.page.evaluate(tell, {"scenario": {**scenario, "features": ["smell"]}})
+    kernel_sets(here.page, {"scenario": {**scenario, "features": ["smell"]}})
     expect(here.page.get_by_role("alert").first).to_contain_text("`features` must be one of")
     expect(words(here)).to_contain_text("It can tell 8 situations apart")
 

@@ -12,7 +12,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import MergingPaths, _scenario
 
-from .pages import settled, state_now
+from .pages import fits_into, kernel_sets, settled, state_now
 
 ROADS = "##G##\n##.##\n##.##\n#...#\n.....\n..#..\n^###^"
 TASK = rl.Task(rl.GridWorld.from_ascii(ROADS), rl.Robot((-90, 0, 90)))
@@ -172,9 +172,7 @@ def test_a_finger_plays_drives(page_of):
     assert state_now(here.page)["drives"] == [0, 1]
     for button in here.page.get_by_role("button").all():
         assert button.bounding_box()["height"] >= 44
-    here.page.set_viewport_size({"width": 360, "height": 740})
-    settled(here.page)
-    assert here.page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert fits_into(here.page, 360)
 
 
 def test_sixty_drives_are_enough(page_of):
@@ -199,16 +197,12 @@ def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme)
     assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(widget(shown=9))
-    here.page.evaluate(TELL, {"shown": 4, "alpha": 0.25})
+    kernel_sets(here.page, {"shown": 4, "alpha": 0.25})
     settled(here.page)
     assert shown(here) == expected(shown=4, alpha=0.25)
-    here.page.evaluate(TELL, {"drives": [0, 7]})
+    kernel_sets(here.page, {"drives": [0, 7]})
     expect(here.page.get_by_role("alert").first).to_contain_text("`drives[1]` must be an integer from 0 to 1")
     assert shown(here) == expected(shown=4, alpha=0.25)
 

@@ -9,7 +9,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import MysteryRobot
 
-from .pages import settled, state_of
+from .pages import kernel_sets, settled, state_of
 
 HIDDEN = """async states => {
   const {Mystery} = await import('/scenario/mystery.js');
@@ -268,15 +268,11 @@ def test_nothing_stands_in_anyones_way(page_of, width, scheme):
 
 
 # ---------------------------------------------------------------- Python
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(mystery())
-    here.page.evaluate(TELL, {"drives": ["CA"]})
+    kernel_sets(here.page, {"drives": ["CA"]})
     told(here, "A: reward −0.1. You are in cell (2, 6), heading 45°.")
-    here.page.evaluate(TELL, {"drives": ["CCACC"]})
+    kernel_sets(here.page, {"drives": ["CCACC"]})
     expect(here.page.get_by_role("alert").first).to_contain_text("5 presses in drive 1, which ended after 3")
     told(here, "A: reward −0.1. You are in cell (2, 6), heading 45°.")
 

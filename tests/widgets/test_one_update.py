@@ -12,6 +12,7 @@ from accessibility import findings
 from rlnav._sampling import expected
 from rlnav.widgets import OneUpdate, _scenario
 
+from .pages import kernel_sets
 from .pages import state_now as state_of
 
 OBSTACLES = rl.Task(rl.GridWorld.from_ascii(rl.maps.OBSTACLES))
@@ -362,13 +363,11 @@ def test_paper_shows_the_table_and_the_numbers_of_the_update(algorithm):
 
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(OneUpdate(OBSTACLES, update=6))
-    tell = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-    tell += " model.set('state', {...model.get('state'), ...patch}); }"
     scenario = _scenario.scenario_of(OBSTACLES, alpha=0.25, epsilon=0.1, episodes=50, seed=4)
-    here.page.evaluate(tell, {"update": 9, "scenario": scenario})
+    kernel_sets(here.page, {"update": 9, "scenario": scenario})
     last = OneUpdate(OBSTACLES, alpha=0.25, epsilon=0.1, episodes=50, seed=4, update=9).last
     assert float(shown(here)["after"]) == last.after
-    here.page.evaluate(tell, {"scenario": scenario | {"alpha": 7}})
+    kernel_sets(here.page, {"scenario": scenario | {"alpha": 7}})
     here.page.get_by_role("alert").first.get_by_text("`alpha` must be").wait_for()
     assert float(shown(here)["after"]) == last.after
     button(here, "One step").click()

@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import PaintPolicy
 
-from .pages import settled
+from .pages import fits_into, in_lecture, kernel_sets
 from .pages import state_now as state_of
 
 ROOM = rl.GridWorld.from_ascii(".....\n...G.\n.#...\n.....\nS....")
@@ -205,11 +205,9 @@ def test_start_again_goes_back_to_the_page_as_it_was(page_of):
 
 def test_the_space_bar_drives_in_a_lecture(page_of):
     here = page_of(PaintPolicy(TASK, START))
-    here.page.get_by_role("button", name="Lecture view").click()
-    here.page.keyboard.press("Space")
-    expect(words(here)).to_contain_text("one drive earned")
-    here.page.keyboard.press("Escape")
-    here.page.get_by_role("button", name="Lecture view").wait_for()
+    with in_lecture(here.page):
+        here.page.keyboard.press("Space")
+        expect(words(here)).to_contain_text("one drive earned")
 
 
 @pytest.mark.parametrize("width", browsing.WIDTHS)
@@ -217,20 +215,14 @@ def test_the_space_bar_drives_in_a_lecture(page_of):
 def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme):
     here = page_of(PaintPolicy(TASK, START, drives=60, kept="straight"), width=width, scheme=scheme)
     assert findings(here.page) == []
-    here.page.set_viewport_size({"width": 360, "height": 740})
-    settled(here.page)
-    assert here.page.evaluate("document.documentElement.scrollWidth") <= 360
-
-
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
+    assert fits_into(here.page, 360)
 
 
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(PaintPolicy(TASK, START))
-    here.page.evaluate(TELL, {"drives": 30, "pose": [0, 4, 0]})
+    kernel_sets(here.page, {"drives": 30, "pose": [0, 4, 0]})
     expect(words(here)).to_contain_text("From cell (0, 4), heading 0°, 30 drives earned")
-    here.page.evaluate(TELL, {"policy": "012"})
+    kernel_sets(here.page, {"policy": "012"})
     here.page.get_by_role("alert").first.get_by_text("`policy` must be one sign for each of the").wait_for()
     expect(words(here)).to_contain_text("30 drives earned")
 

@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import PolicyIteration, _scenario
 
-from .pages import settled
+from .pages import kernel_sets, settled
 from .pages import state_now as state_of
 
 OBSTACLES = rl.GridWorld.from_ascii(rl.maps.OBSTACLES)
@@ -197,15 +197,11 @@ def test_a_policy_and_a_reward_of_the_readers_own_are_the_beginning(page_of):
     assert number(here, "off-policy") == pytest.approx(np.abs(V - rl.evaluate_policy(mdp, pi)).max(), abs=1e-8)
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(PolicyIteration(SLIPPERY))
-    here.page.evaluate(TELL, {"moves": "ssi"})
+    kernel_sets(here.page, {"moves": "ssi"})
     expect(answer(here)).to_contain_text("Step 3: improved")
-    here.page.evaluate(TELL, {"moves": "sx"})
+    kernel_sets(here.page, {"moves": "sx"})
     expect(here.page.get_by_role("alert").first).to_contain_text("`moves` must be")
     expect(answer(here)).to_contain_text("Step 3: improved")
     button(here, "One sweep").click()

@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import ReturnLine
 
-from .pages import settled, state_now
+from .pages import kernel_sets, settled, state_now
 
 MAP = """
 ........
@@ -234,16 +234,12 @@ def test_start_again_goes_back_to_the_page_as_it_was(page_of):
     assert state_now(here.page) == widget.state
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(line())
-    here.page.evaluate(TELL, {"known": 0, "gamma": 0.5})
+    kernel_sets(here.page, {"known": 0, "gamma": 0.5})
     assert shown(here, 2) == rl.returns(LONG, 0.5).tolist()
     told = words(here)
-    here.page.evaluate(TELL, {"gamma": 3})
+    kernel_sets(here.page, {"gamma": 3})
     here.page.get_by_role("alert").first.get_by_text("`gamma` must be a number in [0, 1]").wait_for()
     assert words(here) == told
 

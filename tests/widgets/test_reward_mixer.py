@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import RewardMixer, _scenario
 
-from .pages import settled
+from .pages import kernel_sets, settled
 from .pages import state_now as state_of
 
 D = rl.designs
@@ -226,18 +226,14 @@ def test_more_discount_makes_the_same_reward_a_trap(page_of):
     expect(answer(here)).to_contain_text("It circles for ever")
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(circling())
-    here.page.evaluate(TELL, {"pose": [8, 7, 90]})
+    kernel_sets(here.page, {"pose": [8, 7, 90]})
     expect(answer(here)).to_contain_text("It arrives after 1 step.")
-    here.page.evaluate(TELL, {"scenario": {**_scenario.scenario_of(TASK), "slip": 0.5}})
+    kernel_sets(here.page, {"scenario": {**_scenario.scenario_of(TASK), "slip": 0.5}})
     expect(here.page.get_by_role("alert").first).to_contain_text("`slip` must be 0")
     expect(answer(here)).to_contain_text("It arrives after 1 step.")
-    here.page.evaluate(TELL, {"scenario": _scenario.scenario_of(TASK), "pose": [8, 8, 90]})
+    kernel_sets(here.page, {"scenario": _scenario.scenario_of(TASK), "pose": [8, 8, 90]})
     expect(here.page.get_by_role("alert").first).to_contain_text("`pose` must be a pose away from the goal")
 
 

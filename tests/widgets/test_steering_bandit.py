@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import SteeringBandit
 
-from .pages import settled
+from .pages import kernel_sets, settled
 from .pages import state_now as state_of
 
 TASK = rl.Task(rl.GridWorld.from_ascii(rl.maps.OBSTACLES), rl.Robot(slip=0.1))
@@ -215,15 +215,11 @@ def test_a_finger_can_play(page_of):
     expect(answer(here)).to_contain_text("You took it 2 of 3 times")
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(game())
-    here.page.evaluate(TELL, {"turns": [4, 4], "noise": 0})
+    kernel_sets(here.page, {"turns": [4, 4], "noise": 0})
     expect(answer(here)).to_contain_text("+90° paid 4.8. 4 turns are still untried.")
-    here.page.evaluate(TELL, {"noise": -1})
+    kernel_sets(here.page, {"noise": -1})
     expect(here.page.get_by_role("alert").first).to_contain_text("`noise` must be")
     expect(answer(here)).to_contain_text("+90° paid 4.8")
 

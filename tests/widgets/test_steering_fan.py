@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import SteeringFan, _scenario
 
-from .pages import settled
+from .pages import kernel_sets, settled
 from .pages import state_now as state_of
 
 OBSTACLES = rl.GridWorld.from_ascii(rl.maps.OBSTACLES)
@@ -252,11 +252,9 @@ def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme)
 
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(SteeringFan(TASK, POSE))
-    tell = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-    tell += " model.set('state', {...model.get('state'), ...patch}); }"
-    here.page.evaluate(tell, {"steps": 3, "pose": [1, 1, 0]})
+    kernel_sets(here.page, {"steps": 3, "pose": [1, 1, 0]})
     expect(words(here)).to_contain_text("Within 3 steps")
-    here.page.evaluate(tell, {"pose": [7, 8, 0]})
+    kernel_sets(here.page, {"pose": [7, 8, 0]})
     expect(here.page.get_by_role("alert").first).to_contain_text("`pose` must be on a free cell")
     settled(here.page)
     expect(words(here)).to_contain_text("Within 3 steps")

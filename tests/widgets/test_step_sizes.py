@@ -11,7 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import StepSizes, _scenario
 
-from .pages import settled, state_now
+from .pages import fits_into, kernel_sets, settled, state_now
 
 SMALL = rl.Task(rl.GridWorld.from_ascii("...G\n.#..\n...."), rl.Robot((-45, 0, 45), slip=0.2))
 POSE, TURN = rl.Pose(1, 0, 0), 45
@@ -214,9 +214,7 @@ def test_keys_and_fingers_work_it(page_of):
     here.page.get_by_role("button", name="Pause").tap()
     for button in here.page.get_by_role("button").all():
         assert button.bounding_box()["height"] >= 44
-    here.page.set_viewport_size({"width": 360, "height": 740})
-    settled(here.page)
-    assert here.page.evaluate("document.documentElement.scrollWidth") <= 360
+    assert fits_into(here.page, 360)
 
 
 def test_the_lecture_view_is_worked_by_the_space_bar(page_of):
@@ -234,16 +232,12 @@ def test_nothing_is_wrong_for_those_who_use_other_senses(page_of, width, scheme)
     assert here.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(widget(shown=9))
-    here.page.evaluate(TELL, {"kind": "power", "c": 1.0, "shown": 4})
+    kernel_sets(here.page, {"kind": "power", "c": 1.0, "shown": 4})
     settled(here.page)
     assert numbers(here) == pytest.approx([1 / 4, 1 + 1 / 2 + 1 / 3 + 1 / 4, 1 + 1 / 4 + 1 / 9 + 1 / 16, 1 / 4])
-    here.page.evaluate(TELL, {"c": 7})
+    kernel_sets(here.page, {"c": 7})
     expect(here.page.get_by_role("alert").first).to_contain_text("`c` must be")
     assert numbers(here)[0] == 1 / 4
 

@@ -11,6 +11,7 @@ import rlnav as rl
 from accessibility import findings
 from rlnav.widgets import ValueWave, _scenario
 
+from .pages import kernel_sets
 from .pages import state_now as state_of
 
 OBSTACLES = rl.GridWorld.from_ascii(rl.maps.OBSTACLES)
@@ -309,17 +310,13 @@ def test_python_knows_the_values_that_are_shown_and_draws_them_for_paper():
     assert "Sweep 0: every value is 0." in repr(wave)
 
 
-TELL = "patch => { const {model} = document.querySelector('.rlnav-explorable');"
-TELL += " model.set('state', {...model.get('state'), ...patch}); }"
-
-
 def test_what_a_kernel_sets_is_shown_and_nonsense_leaves_the_picture(page_of):
     here = page_of(ValueWave(SLIPPERY, sweep=6))
-    here.page.evaluate(TELL, {"sweep": 3, "heading": 90, "pose": [8, 6, 90]})
+    kernel_sets(here.page, {"sweep": 3, "heading": 90, "pose": [8, 6, 90]})
     assert words(here).startswith("Sweep 3: ")
     V = rl.value_iteration(SLIPPERY.mdp(), max_sweeps=3).V[SLIPPERY.index(rl.Pose(8, 6, 90))]
     assert exact(here.page.locator(".rl-look-ahead caption")) == pytest.approx([V], abs=1e-12)
-    here.page.evaluate(TELL, {"scenario": {"map": ["#G#", "###"], "slip": 2}})
+    kernel_sets(here.page, {"scenario": {"map": ["#G#", "###"], "slip": 2}})
     here.page.get_by_role("alert").first.get_by_text("`slip` must be").wait_for()
     assert words(here).startswith("Sweep 3: ")
     here.page.get_by_role("button", name="One sweep").click()
