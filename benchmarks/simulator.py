@@ -192,11 +192,14 @@ def opening(browser: Any, slowdown: float) -> Rows:
 
 def loaded() -> dict[str, list[bytes]]:
     """Return the files that the book's page loads: all of them, and ours."""
-    files: dict[str, bytes] = {}
+    finished: list[Any] = []
     with browsing.launched() as browser, browsing.served(built()) as address:
         page = browser.new_context(viewport=WINDOW).new_page()
-        page.on("requestfinished", lambda request: files.setdefault(request.url, request.response().body()))
-        page.goto(address + PAGE, wait_until="networkidle")
+        page.on("requestfinished", lambda request: finished.append(request))
+        page.goto(address + PAGE)
+        page.wait_for_function("document.querySelector('.rlnav-explorable.is-live')")
+        page.wait_for_load_state("networkidle")
+        files = {request.url: request.response().body() for request in finished}
     ours = [data for url, data in files.items() if "/rlnav" in url or url.endswith("explorables.js")]
     return {"all": list(files.values()), "the simulator's own": ours}
 
