@@ -121,7 +121,7 @@ class Shaped:
 
     References
     ----------
-    A. Y. Ng, D. Harada and S. Russell, Policy invariance under reward transformations, ICML 1999.
+    Ng, Harada and Russell, Policy invariance under reward transformations, ICML 1999.
     """
 
     reward: Reward

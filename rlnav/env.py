@@ -54,7 +54,7 @@ class GridRobotEnv(gym.Env[Any, Any]):
 
     References
     ----------
-    M. Towers et al., Gymnasium: A standard interface for reinforcement learning environments, arXiv 2407.17032, 2024.
+    Towers et al., Gymnasium: A standard interface for reinforcement learning environments, arXiv 2407.17032, 2024.
 
     Examples
     --------

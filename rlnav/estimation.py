@@ -95,7 +95,7 @@ def td_prediction(
 
     References
     ----------
-    R. S. Sutton, Learning to predict by the methods of temporal differences, Machine Learning 3, 1988.
+    Sutton, Learning to predict by the methods of temporal differences, Machine Learning 3, 1988.
 
     Examples
     --------
@@ -125,7 +125,7 @@ def mc_prediction(
 
     References
     ----------
-    R. S. Sutton and A. G. Barto, Reinforcement Learning, 2nd ed., MIT Press, 2018, sections 5.1 and 6.1.
+    Sutton and Barto, Reinforcement Learning, 2nd ed., MIT Press, 2018, sections 5.1 and 6.1.
     """
     return _predict(_mc_prediction, mdp, pi, episodes, alpha, max_steps, rng, V0, snapshots)
 

@@ -70,7 +70,7 @@ def q_learning(
 
     References
     ----------
-    C. J. C. H. Watkins and P. Dayan, Q-learning, Machine Learning 8, 1992.
+    Watkins and Dayan, Q-learning, Machine Learning 8, 1992.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def sarsa(
 
     References
     ----------
-    G. A. Rummery and M. Niranjan, On-line Q-learning using connectionist systems, Cambridge University, 1994.
+    Rummery and Niranjan, On-line Q-learning using connectionist systems, Cambridge University, 1994.
     """
     return train(_sarsa, mdp, phi, episodes, alpha, epsilon, max_steps, rng, Q0, snapshots)
 
@@ -124,7 +124,7 @@ def expected_sarsa(
 
     References
     ----------
-    H. van Seijen et al., A theoretical and empirical analysis of Expected Sarsa, ADPRL 2009.
+    Van Seijen et al., A theoretical and empirical analysis of Expected Sarsa, ADPRL 2009.
     """
     return train(_expected_sarsa, mdp, phi, episodes, alpha, epsilon, max_steps, rng, Q0, snapshots)
 
@@ -148,7 +148,7 @@ def double_q_learning(
 
     References
     ----------
-    H. van Hasselt, Double Q-learning, NIPS 2010.
+    Van Hasselt, Double Q-learning, NIPS 2010.
     """
     return train(_double_q_learning, mdp, phi, episodes, alpha, epsilon, max_steps, rng, Q0, snapshots)
 

@@ -30,7 +30,7 @@ def monte_carlo(
 
     References
     ----------
-    R. S. Sutton and A. G. Barto, Reinforcement Learning, 2nd ed., MIT Press, 2018, section 5.4.
+    Sutton and Barto, Reinforcement Learning, 2nd ed., MIT Press, 2018, section 5.4.
 
     Examples
     --------

@@ -77,7 +77,7 @@ def value_iteration(mdp: MDP, *, tol: float = 1e-8, max_sweeps: int | None = Non
 
     References
     ----------
-    R. Bellman, Dynamic Programming, Princeton University Press, 1957.
+    Bellman, Dynamic Programming, Princeton University Press, 1957.
 
     Examples
     --------
@@ -121,7 +121,7 @@ def policy_iteration(mdp: MDP, *, pi: ArrayLike | None = None) -> Solution:
 
     References
     ----------
-    R. A. Howard, Dynamic Programming and Markov Processes, MIT Press, 1960.
+    Howard, Dynamic Programming and Markov Processes, MIT Press, 1960.
     """
     _check.instance("mdp", mdp, MDP)
     policy = _towards_the_end(mdp) if pi is None else _check.plain("pi", pi, "one action a state")
@@ -169,7 +169,7 @@ def solve(mdp: MDP, *, tol: float = 1e-8, max_sweeps: int | None = None) -> Solu
 
     References
     ----------
-    M. L. Puterman, Markov Decision Processes, Wiley, 1994, section 6.5 (modified policy iteration).
+    Puterman, Markov Decision Processes, Wiley, 1994, section 6.5 (modified policy iteration).
     """
     tol, limit = _stopping_rule(mdp, tol, max_sweeps)
     model = mdp.next_state.view(np.uint32), mdp.prob, np.einsum("sak,sak->sa", mdp.prob, mdp.reward), mdp.gamma
