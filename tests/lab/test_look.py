@@ -57,6 +57,22 @@ def test_an_explorable_starts_and_tells_its_state_to_the_kernel(notebook, name):
     assert root.get_by_role("alert").filter(has_text=re.compile(r"\w")).count() == 0
 
 
+def test_keys_pressed_in_its_controls_are_not_for_the_notebook(notebook):
+    """JupyterLab would go to the next cell with an arrow key, and cut the cell with x."""
+    it = notebook(TASK, "w = rl.widgets.ValueWave(task)\nw", "'the last cell'")
+    it.run()
+    root = it.run(1).locator(".rlnav")
+    front = "() => [jupyterapp.shell.currentWidget.content].map(n => [n.activeCellIndex, n.widgets.length])[0]"
+    gamma = it.ask("w.state['scenario']['gamma']")
+    slider = root.get_by_role("slider", name="Discount γ")
+    slider.focus()
+    before = it.page.evaluate(front)
+    slider.press("ArrowRight")
+    it.wait_until(f"w.state['scenario']['gamma'] > {gamma}")
+    root.get_by_role("button", name="One sweep").press("x")
+    assert it.page.evaluate(front) == before
+
+
 def test_the_dark_theme_is_followed_while_it_is_open(notebook, lab):
     sim = Arena(notebook(SIMULATOR).run())
     words = sim.element.locator(".rl-run-words")

@@ -57,8 +57,11 @@ export class Stage {
     this.notice = h("div", { class: "rl-message-area", role: "status" });
     this.voice = h("p", { class: "rl-hidden", role: "status", "aria-live": "polite" });
     this.root = h("div", { class: "rl-stage" });
-    // JupyterLab would take keys like "a" and "d" for commands to the notebook
-    this.frame = h("div", { class: "rlnav", dataset: { lmSuppressShortcuts: "true" } });
+    this.frame = h("div", { class: "rlnav" });
+    // JupyterLab would take arrow keys and letters for commands to the notebook: keys pressed here end here
+    this.frame.addEventListener("keydown", (event) => {
+      if (!event.ctrlKey && !event.metaKey && !event.altKey) event.stopPropagation();
+    });
     this.frame.append(this.alert, this.notice, this.root, this.voice);
     el.append(this.frame);
   }
