@@ -74,8 +74,12 @@ export class DiagramView {
 
   /** Whether an entry lies on the way from the root to what is picked, or below it. */
   isNear(entry) {
-    const above = (a, b) => b !== null && (a === b || above(a, b.parent));
-    return !this.picked || above(entry, this.picked) || above(this.picked, entry);
+    return !this.picked || isAbove(entry, this.picked) || isAbove(this.picked, entry);
+  }
+
+  /** Whether the branch to an entry leads to what is picked, or begins there. */
+  isAsked(entry) {
+    return this.picked !== null && (isAbove(entry, this.picked) || entry.parent === this.picked);
   }
 
   drawBranches() {
@@ -142,14 +146,16 @@ export class DiagramView {
       return { words: named(entry), entry, strong: true, places: placesAtNode(entry, tall) };
     });
     const onBranches = this.all.filter((entry) => entry.parent).map((entry) => {
-      const wanted = this.picked !== null && this.isNear(entry);
+      const wanted = this.isAsked(entry);
       const places = placesOnBranch(entry.parent, entry, tall);
-      return { words: edgeOf(entry.node), entry, branch: entry, wanted, places };
+      const name = entry.node.kind === "action" && entry.node.label;
+      const short = name ? { words: name, wide: this.widthOf(name) } : null;
+      return { words: edgeOf(entry.node), short, entry, branch: entry, wanted, places };
     });
     // beside the branches of a crowded tree there is room for the numbers of one node only
     const tooWide = ({ words, entry }) => entry.level > 1 && this.widthOf(words) > 1.5 * this.apart;
     const crowded = onBranches.some(tooWide);
-    const told = (entry) => !crowded || entry.level === 1 || (this.picked && this.isNear(entry));
+    const told = (entry) => !crowded || entry.level === 1 || this.isAsked(entry);
     return [...atLeaves, ...atNodes, ...onBranches.filter(({ entry }) => told(entry))];
   }
 
@@ -199,6 +205,11 @@ export class DiagramView {
     if (next && next === here && here === this.picked) this.onOpen?.(here.node);
     else if (next) this.pick(next, true);
   }
+}
+
+/** Whether an entry is another or one of those that lead to it. */
+function isAbove(entry, other) {
+  return other !== null && (entry === other || isAbove(entry, other.parent));
 }
 
 function depthOf(node) {

@@ -35,8 +35,8 @@ export function rowsFor(leaves, apart, widthOf) {
 
 /**
  * Choose places for texts: those first in the list come first, and one that would touch another is left out. A text
- * that belongs to one of the branches, `text.branch`, does not lie across another, or it would be taken for that one's;
- * unless it is `text.wanted`, and there is no other place.
+ * that belongs to one of the branches, `text.branch`, does not lie across another, or it would be taken for that one's:
+ * then it is shortened to `text.short`, or else left out, unless it is `text.wanted`.
  */
 export function fitTexts(wanted, taken, bounds, branches = []) {
   const boxes = [...taken];
@@ -45,13 +45,15 @@ export function fitTexts(wanted, taken, bounds, branches = []) {
     boxes.every((other) => box.x1 <= other.x0 || box.x0 >= other.x1 || box.y1 <= other.y0 || box.y0 >= other.y1);
   const clear = (box, own) => !own || branches.every((entry) => entry === own || !isCrossed(box, entry));
   const placed = [];
-  for (const { places, ...text } of wanted) {
-    const possible = places.filter((place) => fits(boxOf(place, text)));
-    const best = possible.find((place) => clear(boxOf(place, text), text.branch));
-    const free = best ?? (text.wanted ? possible[0] : null);
-    if (!free) continue;
-    boxes.push(boxOf(free, text));
-    placed.push({ ...text, ...free });
+  for (const { places, short, ...text } of wanted) {
+    const forms = [text, ...(short ? [{ ...text, ...short }] : [])];
+    const tried = forms.flatMap((form) => places.map((place) => ({ ...form, ...place })));
+    const possible = tried.filter((one) => fits(boxOf(one, one)));
+    const shortest = possible.find(({ words }) => words === forms.at(-1).words);
+    const best = possible.find((one) => clear(boxOf(one, one), text.branch)) ?? (text.wanted ? shortest : null);
+    if (!best) continue;
+    boxes.push(boxOf(best, best));
+    placed.push(best);
   }
   return placed;
 }
