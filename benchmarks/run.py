@@ -120,9 +120,8 @@ def book() -> Rows:
 def waits() -> Rows:
     """Measure what a reader waits for after moving a control of a chapter."""
     yield "notebook", "controls", "control", "CPU ms, median", "most"
-    alone = ProcessPoolExecutor(
-        1, get_context("spawn"), max_tasks_per_child=1
-    )  # what a chapter leaves in memory counts
+    # a process for each, because what a chapter leaves in memory counts
+    alone = ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1)
     for rows in alone.map(controls.rows, notebooks()):
         yield from rows
 

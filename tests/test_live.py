@@ -1,5 +1,8 @@
 """Controls move, Python draws again, and nothing goes wrong in silence."""
 
+import gc
+import weakref
+
 import ipywidgets
 import matplotlib as mpl
 import pytest
@@ -162,6 +165,24 @@ def test_a_figure_that_was_open_before_stays_open(live):
     live.controls["gamma"].value = 0.6
     assert plt.get_fignums() == [mine.number]
     plt.close(mine)
+
+
+@pytest.mark.parametrize("collecting", [True, False])
+def test_a_figure_is_swept_up_at_once_if_the_reader_lets_python_sweep(collecting):
+    drawn = []
+
+    def remembered(gamma=0.9):
+        drawn.append(weakref.ref(line(gamma)))
+        return drawn[-1]()
+
+    live = Live(remembered, {"gamma": (0.5, 0.99, 0.01)}, alt="A line.")
+    try:
+        (gc.enable if collecting else gc.disable)()
+        live.controls["gamma"].value = 0.6
+        assert gc.isenabled() == collecting
+        assert (drawn[-1]() is None) == collecting
+    finally:
+        gc.enable()
 
 
 def test_no_figure_stays_open_when_many_are_drawn_and_the_controls_are_closed(live):

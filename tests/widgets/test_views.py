@@ -863,6 +863,20 @@ def test_numbers_of_a_diagram_never_touch_each_other(page, width):
         page.evaluate("diagram.destroy()")
 
 
+def test_a_label_that_would_lie_across_another_branch_is_shortened(js):
+    """Two branches 40 pixels apart; each label, 60 wide in full and 20 in short, stands beside its own at the right."""
+    placed = js("""async () => {
+      const { fitTexts } = await import("/views/diagram_layout.js");
+      const branches = [100, 140].map(x => ({ x, y: 100, parent: { x, y: 0 } }));
+      const wanted = branches.map(branch => ({
+        words: "+45°, 0.2", wide: 60, short: { words: "+45°", wide: 20 }, tall: 10, branch, wanted: true,
+        places: [{ x: branch.x + 5, y: 50, anchor: "start" }],
+      }));
+      return fitTexts(wanted, [], { x0: 0, x1: 300 }, branches).map(({ words, x }) => [words, x]);
+    }""")
+    assert placed == [["+45°", 105], ["+45°, 0.2", 145]]
+
+
 def test_the_best_branch_is_marked_and_the_arc_spans_the_choice(page):
     draw_diagram(page, 1)
     assert page.locator(".rl-best").count() == 1
